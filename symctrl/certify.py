@@ -19,7 +19,7 @@ def tool() -> str:
 
 
 def canonical(obj: object) -> str:
-    """The one JSON text of `obj` that digests are taken over: sorted keys, no spaces, nothing but JSON's own values.
+    """The JSON text of `obj` that digests are taken over: sorted keys, no spaces, only JSON's own values.
 
     Raises ValueError for a NaN or an infinity, TypeError for what JSON has no form for.
     """
