@@ -1,0 +1,267 @@
+"""The exact domain: rational functions over Q in generators, reduced by relations.
+
+A value is a sum of fractions, {denominator: numerator}, over a table of irreducible factors found when something is
+inverted. Sums are not put over a common denominator; relations are applied where it must be known whether a value is
+zero. What no ring operation covers becomes an opaque generator with its relations (symctrl.domains.opaque).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+from symctrl.domains.domain import Domain
+from symctrl.domains.field import Exact, Field, Key, Poly, coefficient, key_product, merged
+from symctrl.domains.opaque import Knowledge, NowhereDefined, Opaque
+from symctrl.domains.signs import Signs
+
+
+@dataclass
+class Recording:
+    """What the kernel needs to repeat the evaluation: for each inverted value its factors, for each opaque result its value."""
+
+    inverses: list[tuple[Fraction, tuple[tuple[int, int], ...]]] = field(default_factory=list)
+    results: list[tuple[str, Exact]] = field(default_factory=list)
+
+
+class ExactDomain(Domain[Exact]):
+    """Exact values over one `Field`. Raises NowhereDefined, OutOfGenerators and opaque.Refine (evaluate again, knowing more)."""
+
+    name = "exact"
+
+    def __init__(self, field_: Field, knowledge: Knowledge | None = None) -> None:
+        self.field = field_
+        self.signs = Signs(field_)
+        self.recording = Recording()
+        self.opaque = Opaque(self, knowledge or Knowledge())
+        self._inverse_of: dict[str, tuple[Exact, Poly, Key]] = {}
+
+    # Values
+
+    def constant(self, value: Fraction) -> Exact:
+        return {(): self.field.polynomial(value)} if value else {}
+
+    def free(self, name: str) -> Exact:
+        return {(): self.field.variable(self.field.index[name])}
+
+    def polynomial(self, p: Poly) -> Exact:
+        return {} if p.is_zero() else {(): p}
+
+    def over(self, numerator: Poly, key: Key) -> Exact:
+        """numerator / key, cancelled; exponents of the key may be negative."""
+        for k, e in key:
+            if e < 0:
+                numerator = numerator * self.field.factors[k] ** (-e)
+        return self._cancelled(tuple((k, e) for k, e in key if e > 0), numerator)
+
+    # Ring operations
+
+    def add_(self, a: Exact, b: Exact) -> Exact:
+        return self._sum(a, b, lambda p, q: p + q)
+
+    def sub_(self, a: Exact, b: Exact) -> Exact:
+        return self._sum(a, {key: -p for key, p in b.items()}, lambda p, q: p + q)
+
+    def neg_(self, a: Exact) -> Exact:
+        return {key: -p for key, p in a.items()}
+
+    def mul_(self, a: Exact, b: Exact) -> Exact:
+        products: Exact = {}
+        for k, p in a.items():
+            for j, q in b.items():
+                key = key_product(k, j)
+                products[key] = products[key] + p * q if key in products else p * q
+        if len(products) == 1 and () in products:
+            return products
+        return merged([pair for key, p in products.items() for pair in self._cancelled(key, p).items()])
+
+    def scaled(self, a: Exact, factor: Fraction) -> Exact:
+        return self.mul_(self.constant(factor), a)
+
+    def power(self, a: Exact, exponent: int) -> Exact:
+        """a**exponent by squaring; a negative exponent inverts first."""
+        if exponent < 0:
+            return self.power(self.inv_(a), -exponent)
+        result = self.constant(Fraction(1))
+        while exponent:
+            if exponent & 1:
+                result = self.mul_(result, a)
+            exponent >>= 1
+            a = self.mul_(a, a) if exponent else a
+        return result
+
+    def inv_(self, a: Exact) -> Exact:
+        """1/a through the irreducible factors of its numerator. Raises NowhereDefined."""
+        constant = self.rational(a)
+        if constant:
+            return self.constant(1 / constant)
+        c, key = self.factored(a)
+        if c == 0:
+            raise NowhereDefined("a division by what is zero on the whole domain")
+        self.recording.inverses.append((c, key))
+        return self.over(self.field.polynomial(1 / c), key)
+
+    def _sum(self, a: Exact, b: Exact, plus: Callable[[Poly, Poly], Poly]) -> Exact:
+        if len(a) < len(b):
+            a, b = b, a
+        result = dict(a)
+        for key, q in b.items():
+            if key in result:
+                p = plus(result[key], q)
+                if p.is_zero():
+                    del result[key]
+                else:
+                    result[key] = p
+            else:
+                result[key] = q
+        return result
+
+    def _cancelled(self, key: Key, p: Poly) -> Exact:
+        if p.is_zero():
+            return {}
+        kept = []
+        for k, exponent in key:
+            e = exponent
+            while e:
+                quotient, rest = divmod(p, self.field.factors[k])
+                if not rest.is_zero():
+                    break
+                p, e = quotient, e - 1
+            if e:
+                kept.append((k, e))
+        return {tuple(kept): p}
+
+    # Questions about values
+
+    def rational(self, a: Exact) -> Fraction | None:
+        """The number that a is without any relation, or None."""
+        if not a:
+            return Fraction(0)
+        if len(a) == 1 and () in a and a[()].is_constant():
+            return coefficient(a[()])
+        return None
+
+    def together(self, a: Exact) -> tuple[Poly, Key]:
+        """Numerator in normal form, and denominator, of the whole sum."""
+        common: dict[int, int] = {}
+        for key in a:
+            for k, e in key:
+                common[k] = max(common.get(k, 0), e)
+        total = self.field.polynomial(0)
+        for key, p in a.items():
+            have = dict(key)
+            for k, e in common.items():
+                if e > have.get(k, 0):
+                    p = p * self.field.factors[k] ** (e - have.get(k, 0))
+            total = total + p
+        return self.field.normal(total), tuple(sorted(common.items()))
+
+    def is_zero(self, a: Exact) -> bool:
+        """Is a zero wherever it is defined on the domain? False means: not shown by the relations."""
+        if not a:
+            return True
+        parts = list(self._components(a))
+        if len(parts) > 1 and all(self.together(part)[0].is_zero() for part in parts):
+            return True
+        return bool(self.together(a)[0].is_zero())
+
+    def simplified(self, a: Exact) -> Exact:
+        """The same value over one denominator, in normal form and cancelled."""
+        numerator, key = self.together(a)
+        return self._cancelled(key, numerator)
+
+    def factored(self, a: Exact) -> tuple[Fraction, Key]:
+        """c and {factor: exponent} with a = c ∏ factor^exponent, exponents of either sign; c = 0 for zero."""
+        text = str(sorted((key, str(p)) for key, p in a.items()))
+        if text not in self._inverse_of:
+            numerator, key = self.together(a)
+            c, exponents = self.factor_polynomial(numerator)
+            for k, e in key:
+                exponents[k] = exponents.get(k, 0) - e
+            self._inverse_of[text] = (a, c, tuple(sorted((k, e) for k, e in exponents.items() if e)))
+        return self._inverse_of[text][1:]
+
+    def factor_polynomial(self, p: Poly) -> tuple[Fraction, dict[int, int]]:
+        """c and {factor: exponent} with p = c ∏ factor^exponent; the factors enter the table."""
+        if p.is_zero():
+            return Fraction(0), {}
+        c, pairs = p.factor()
+        return Fraction(int(c.p), int(c.q)), {self.field.factor_index(f): int(e) for f, e in pairs}
+
+    def _components(self, a: Exact) -> list[Exact]:
+        """Groups whose denominators share factors, apart from the others."""
+        parts: list[tuple[set[int], Exact]] = []
+        for key, p in a.items():
+            factors = {k for k, _ in key}
+            joined: Exact = {key: p}
+            rest = []
+            for other, part in parts:
+                if other & factors:
+                    factors |= other
+                    joined |= part
+                else:
+                    rest.append((other, part))
+            parts = [*rest, (factors, joined)]
+        return [part for _, part in parts]
+
+    # Everything else is opaque
+
+    def operation(self, op: str) -> Callable[..., Exact]:
+        handler = self.opaque.handler(op)
+        if handler is None:
+            return super().operation(op)
+
+        def evaluate(*args: Exact) -> Exact:
+            result = handler(*args)
+            self.recording.results.append((op, result))
+            return result
+
+        return evaluate
+
+    def pow_(self, a: Exact, b: Exact) -> Exact:
+        """a**b: repeated multiplication for an integer b, else symctrl.domains.opaque."""
+        exponent = self.rational(b)
+        if exponent is not None and exponent.denominator == 1:
+            return self.power(a, int(exponent))
+        result = self.opaque.power(a, b)
+        self.recording.results.append(("POW", result))
+        return result
+
+    def fmin_(self, a: Exact, b: Exact) -> Exact:
+        """(a + b - |a - b|)/2."""
+        return self._extreme(a, b, -1)
+
+    def fmax_(self, a: Exact, b: Exact) -> Exact:
+        """(a + b + |a - b|)/2."""
+        return self._extreme(a, b, 1)
+
+    def _extreme(self, a: Exact, b: Exact, side: int) -> Exact:
+        apart = self.operation("FABS")(self.sub_(a, b))
+        total = self.add_(self.add_(a, b), self.scaled(apart, Fraction(side)))
+        return self.scaled(total, Fraction(1, 2))
+
+    def sinh_(self, a: Exact) -> Exact:
+        return self._half_difference(a, -1)
+
+    def cosh_(self, a: Exact) -> Exact:
+        return self._half_difference(a, 1)
+
+    def _half_difference(self, a: Exact, side: int) -> Exact:
+        e = self.operation("EXP")(a)
+        return self.scaled(self.add_(e, self.scaled(self.inv_(e), Fraction(side))), Fraction(1, 2))
+
+    def hints_json(self) -> dict[str, Any]:
+        """Each distinct inverse and opaque result once, in the order of first use."""
+        inverses: list[Any] = []
+        for c, key in self.recording.inverses:
+            entry = [str(c), [list(pair) for pair in key]]
+            if entry not in inverses:
+                inverses.append(entry)
+        results: list[Any] = []
+        for op, value in self.recording.results:
+            entry = [op, self.field.value_json(value)]
+            if entry not in results:
+                results.append(entry)
+        return {"inverses": inverses, "results": results}

@@ -1,0 +1,163 @@
+"""The algebra under the exact domain: polynomials in generators, a table of factors, and relations.
+
+Generators rank by their index (a later one is higher, lexicographic order): first the free symbols, then the opaque ones
+(a root, a sine, an absolute value), each defined over earlier generators. FLINT fixes the number of variables of a
+context, so spare ones are reserved and taken from the lowest up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import flint
+
+Poly = Any  # flint.fmpq_mpoly
+Key = tuple[tuple[int, int], ...]  # (factor, exponent), increasing: the denominator of one group
+Exact = dict[Key, Any]  # the sum of the groups numerator / denominator; no group is zero
+
+
+class OutOfGenerators(Exception):
+    """More opaque generators are needed than were reserved."""
+
+
+@dataclass(frozen=True)
+class Generator:
+    """One variable. kind: free, root, abs, sign, cos, sin, exp, power or function.
+
+    name: of a free symbol or a function. argument: the defining polynomial (root, abs, sign, power) or values.
+    """
+
+    kind: str
+    name: str = ""
+    argument: Any = None
+    degree: int = 0
+    exponent: Any = None
+    partner: int = -1
+
+
+@dataclass
+class Field:
+    """The polynomial ring with its tables; grows while one claim is evaluated."""
+
+    free: Sequence[str]
+    spare: int = 16
+    generators: list[Generator] = field(default_factory=list)
+    factors: list[Poly] = field(default_factory=list)
+    relations: list[Poly] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.size = len(self.free) + self.spare
+        names = [f"g{k}" for k in reversed(range(self.size))]
+        self.context = flint.fmpq_mpoly_ctx.get(names, "lex")
+        self.generators = [Generator("free", name) for name in self.free]
+        self.index = {name: k for k, name in enumerate(self.free)}
+        self._relation_degree: dict[int, int] = {}
+
+    def variable(self, k: int) -> Poly:
+        return self.context.gen(self.size - 1 - k)
+
+    def polynomial(self, value: Fraction | int) -> Poly:
+        value = Fraction(value)
+        return self.context.constant(flint.fmpq(value.numerator, value.denominator))
+
+    def add_generator(self, generator: Generator) -> int:
+        """Its index. Raises OutOfGenerators."""
+        if len(self.generators) == self.size:
+            raise OutOfGenerators
+        self.generators.append(generator)
+        return len(self.generators) - 1
+
+    def add_relation(self, zero: Poly) -> None:
+        """The polynomial vanishes on the domain; its leading monomial is rewritten from now on."""
+        if not zero.is_zero():
+            self.relations.append(zero)
+            self.relations.sort(key=lambda p: next(iter(p.monoms())), reverse=True)
+
+    def normal(self, p: Poly) -> Poly:
+        """The normal form: no term is divisible by the leading monomial of a relation."""
+        while True:
+            before = p
+            for relation in self.relations:
+                if p.is_zero():
+                    return p
+                p = divmod(p, relation)[1]
+            if p == before:
+                return p
+
+    def factor_index(self, f: Poly) -> int:
+        """The place of an irreducible polynomial in the table, entered if it is new."""
+        for k, known in enumerate(self.factors):
+            if known == f:
+                return k
+        self.factors.append(f)
+        return len(self.factors) - 1
+
+    def occurring(self, p: Poly) -> set[int]:
+        """Indices of the generators that occur in p."""
+        return {self.size - 1 - c for c, degree in enumerate(p.degrees()) if degree}
+
+    def json(self, p: Poly) -> list[list[Any]]:
+        """The POLY form of docs/certificates.md."""
+        result = []
+        for exponents, coefficient in p.terms():
+            term: list[Any] = [str(coefficient)]
+            for k in range(self.size):
+                if e := exponents[self.size - 1 - k]:
+                    term += [k, int(e)]
+            result.append(term)
+        return result
+
+    def value_json(self, value: Exact) -> list[Any]:
+        return [[[list(pair) for pair in key], self.json(p)] for key, p in sorted(value.items())]
+
+    def generators_json(self) -> list[dict[str, Any]]:
+        return [self._generator_json(g) for g in self.generators]
+
+    def _generator_json(self, g: Generator) -> dict[str, Any]:
+        match g.kind:
+            case "free":
+                return {"free": g.name}
+            case "root":
+                return {"root": g.degree, "of": self.json(g.argument)}
+            case "abs":
+                return {"abs": self.json(g.argument)}
+            case "sign":
+                return {"sign": self.json(g.argument), "abs": g.partner}
+            case "cos":
+                return {"cos": self.value_json(g.argument)}
+            case "sin":
+                return {"sin": self.value_json(g.argument), "cos": g.partner}
+            case "exp":
+                return {"exp": self.value_json(g.argument)}
+            case "power":
+                return {"power": self.json(g.argument), "exponent": self.value_json(g.exponent)}
+            case _:
+                return {"function": g.name, "of": [self.value_json(a) for a in g.argument]}
+
+
+def merged(groups: Mapping[Key, Poly] | Sequence[tuple[Key, Poly]]) -> Exact:
+    """The value with equal denominators added up and zero groups left out."""
+    result: Exact = {}
+    for key, p in groups.items() if isinstance(groups, Mapping) else groups:
+        result[key] = result[key] + p if key in result else p
+    return {key: p for key, p in result.items() if not p.is_zero()}
+
+
+def key_product(a: Key, b: Key) -> Key:
+    if not a:
+        return b
+    if not b:
+        return a
+    exponents = dict(a)
+    for k, e in b:
+        exponents[k] = exponents.get(k, 0) + e
+    return tuple(sorted(exponents.items()))
+
+
+def coefficient(p: Poly) -> Fraction:
+    """The rational that a constant polynomial is."""
+    c = p.leading_coefficient() if not p.is_zero() else flint.fmpq(0)
+    return Fraction(int(c.p), int(c.q))

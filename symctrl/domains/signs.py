@@ -1,0 +1,95 @@
+"""What is known of the sign of a polynomial: by its terms, by an assumption, by a minor of a definite matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from symctrl.domains.field import Field, Poly, coefficient
+
+NONNEGATIVE_KINDS = frozenset(("root", "abs", "exp", "power"))
+
+
+@dataclass
+class Signs:
+    """Known signs over a field. `generator[k]` and the polynomials in `facts` are "positive", "nonnegative" or "nonzero"."""
+
+    field_: Field
+    generator: dict[int, str] = field(default_factory=dict)
+    facts: list[tuple[Poly, str]] = field(default_factory=list)
+
+    def learn(self, p: Poly, kind: str) -> None:
+        """The assumption `kind` about p."""
+        p = self.field_.normal(p)
+        occurring = self.field_.occurring(p)
+        if len(occurring) == 1 and len(p) == 1:
+            (k,) = occurring
+            c = coefficient(p)
+            if p == self.field_.variable(k) * p.leading_coefficient() and c > 0:
+                self.generator[k] = kind
+                return
+        self.facts.append((p, kind))
+
+    def learn_definite(self, rows: list[list[Poly]]) -> None:
+        """Every principal minor of a positive definite matrix is positive (Horn and Johnson, Matrix Analysis, 7.1)."""
+        for size in range(1, min(len(rows), 3) + 1):
+            for subset in combinations(range(len(rows)), size):
+                self.learn(determinant([[rows[r][c] for c in subset] for r in subset]), "positive")
+
+    def of(self, p: Poly) -> str | None:
+        """positive, nonnegative or nonzero where that is known of p; None where nothing is."""
+        best = self._by_terms(p)
+        if best == "positive":
+            return best
+        for fact, kind in self.facts:
+            ratio = _ratio(p, fact)
+            if ratio is None:
+                continue
+            if ratio > 0 and (kind == "positive" or best is None):
+                best = kind
+            if ratio < 0 and kind in ("positive", "nonzero") and best is None:
+                best = "nonzero"
+        if best is None and self._by_terms(-p) == "positive":
+            best = "nonzero"
+        return best
+
+    def _by_terms(self, p: Poly) -> str | None:
+        strict = False
+        for exponents, c in p.terms():
+            if c < 0:
+                return None
+            signs = [self._variable(self.field_.size - 1 - v, int(e)) for v, e in enumerate(exponents) if e]
+            if None in signs:
+                return None
+            strict = strict or all(s == "positive" for s in signs)
+        return "positive" if strict else "nonnegative"
+
+    def _variable(self, k: int, exponent: int) -> str | None:
+        known = self.generator.get(k)
+        kind = self.field_.generators[k].kind
+        if kind == "exp" or known == "positive":
+            return "positive"
+        if exponent % 2 == 0:
+            return "positive" if known == "nonzero" else "nonnegative"
+        return "nonnegative" if known == "nonnegative" or kind in NONNEGATIVE_KINDS else None
+
+
+def determinant(rows: list[list[Poly]]) -> Poly:
+    """By Laplace expansion: for sizes up to three."""
+    if len(rows) == 1:
+        return rows[0][0]
+    minors: Iterable[Poly] = (
+        (-1) ** c * rows[0][c] * determinant([row[:c] + row[c + 1 :] for row in rows[1:]])
+        for c in range(len(rows))
+    )
+    first, *rest = minors
+    return sum(rest, first)
+
+
+def _ratio(p: Poly, q: Poly) -> int | None:
+    """The sign of c where p = c q for a rational c."""
+    if len(p) != len(q) or p.is_zero():
+        return None
+    c = p.leading_coefficient() / q.leading_coefficient()
+    return (1 if c > 0 else -1) if p == q * c else None
