@@ -1,0 +1,256 @@
+"""The chain rule: every operation on level values, from the basic operations of a domain.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Relies on: the derivative of a composition of differentiable functions. Where an operation is not differentiable
+everywhere, the rule asks the domain for what it needs: x/y and 1/y, that y != 0 (by `inv`); sqrt(x), that
+sqrt(x) != 0; |x|, that x != 0; log and powers, what their base operations need. sign, floor, comparisons and
+switches have no derivative here, not even where they are locally constant.
+
+A level value is described in `evaluation`. An operation all of whose arguments have the derivative None is a constant:
+its derivative is None, and nothing is asked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from typing import Any, Generic, TypeVar
+
+from symctrl.kernel.certificate import Declined, Invalid
+
+Value = TypeVar("Value")
+Level = Any
+MAX_POWER = 1000
+
+
+class Domain(Generic[Value]):
+    """What the basic operations mean on the values of one type (level 0)."""
+
+    def constant(self, value: Fraction) -> Value:
+        raise NotImplementedError
+
+    def add(self, a: Value, b: Value) -> Value:
+        raise NotImplementedError
+
+    def mul(self, a: Value, b: Value) -> Value:
+        raise NotImplementedError
+
+    def inv(self, a: Value) -> Value:
+        """1/a. Raises Invalid where a may be zero."""
+        raise NotImplementedError
+
+    def function(self, op: str, args: Sequence[Value]) -> Value:
+        """An operation that is not a ring operation, by its opcode: SQRT FABS SIGN SIN COS EXP LOG TANH ..., and POW
+        with an exponent that is not an integer constant. Raises Declined for one without a rule."""
+        raise NotImplementedError
+
+    def nonzero(self, a: Value) -> None:
+        """Take note that a != 0 is needed. Raises Invalid where it cannot be had."""
+        raise NotImplementedError
+
+    def rational(self, a: Value) -> Fraction | None:
+        """The number that `a` is known to be exactly, or None."""
+        raise NotImplementedError
+
+    def neg(self, a: Value) -> Value:
+        return self.mul(self.constant(Fraction(-1)), a)
+
+    def sub(self, a: Value, b: Value) -> Value:
+        return self.add(a, self.neg(b))
+
+    def square(self, a: Value) -> Value:
+        return self.mul(a, a)
+
+    def power(self, a: Value, n: int) -> Value:
+        """a to the integer power n >= 1."""
+        half = self.square(self.power(a, n // 2)) if n > 1 else a
+        return self.mul(half, a) if n > 1 and n % 2 else half
+
+
+class Chain(Generic[Value]):
+    """Operations on level values; `level` says how deep the pairs are nested."""
+
+    def __init__(self, domain: Domain[Value]) -> None:
+        self.domain = domain
+
+    def constant(self, level: int, value: Fraction | int) -> Level:
+        inner = self.domain.constant(Fraction(value))
+        for _ in range(level):
+            inner = (inner, None)
+        return inner
+
+    def zero(self, level: int) -> Level:
+        return self.constant(level, 0)
+
+    def add(self, n: int, a: Level, b: Level) -> Level:
+        if a is None or b is None:
+            return b if a is None else a
+        if n == 0:
+            return self.domain.add(a, b)
+        return self.add(n - 1, a[0], b[0]), self.add(n - 1, a[1], b[1])
+
+    def neg(self, n: int, a: Level) -> Level:
+        if a is None:
+            return None
+        if n == 0:
+            return self.domain.neg(a)
+        return self.neg(n - 1, a[0]), self.neg(n - 1, a[1])
+
+    def sub(self, n: int, a: Level, b: Level) -> Level:
+        if a is None or b is None:
+            return self.neg(n, b) if a is None else a
+        if n == 0:
+            return self.domain.sub(a, b)
+        return self.sub(n - 1, a[0], b[0]), self.sub(n - 1, a[1], b[1])
+
+    def mul(self, n: int, a: Level, b: Level) -> Level:
+        if a is None or b is None:
+            return None
+        if n == 0:
+            return self.domain.mul(a, b)
+        rate = self.add(n - 1, self.mul(n - 1, a[1], b[0]), self.mul(n - 1, a[0], b[1]))
+        return self.mul(n - 1, a[0], b[0]), rate
+
+    def square(self, n: int, a: Level) -> Level:
+        if n == 0:
+            return self.domain.square(a)
+        return self.square(n - 1, a[0]), self.twice(n - 1, self.mul(n - 1, a[0], a[1]))
+
+    def twice(self, n: int, a: Level) -> Level:
+        return self.add(n, a, a)
+
+    def inv(self, n: int, a: Level) -> Level:
+        """r = 1/a with the derivative -r^2 a'."""
+        if n == 0:
+            return self.domain.inv(a)
+        r = self.inv(n - 1, a[0])
+        if a[1] is None:
+            return r, None
+        return r, self.neg(n - 1, self.mul(n - 1, self.square(n - 1, r), a[1]))
+
+    def div(self, n: int, a: Level, b: Level) -> Level:
+        """With r = 1/b and x = a r: the derivative (a' - x b') r."""
+        if n == 0:
+            return self.domain.mul(a, self.domain.inv(b))
+        r = self.inv(n - 1, b[0])
+        x = self.mul(n - 1, a[0], r)
+        return x, self.mul(n - 1, self.sub(n - 1, a[1], self.mul(n - 1, x, b[1])), r)
+
+    def power(self, n: int, a: Level, exponent: int) -> Level:
+        """a to an integer power; a to the power 0 is 1. A negative one is the power of the inverse."""
+        if abs(exponent) > MAX_POWER:
+            raise Declined(f"a power with the exponent {exponent} is above the limit {MAX_POWER}")
+        if exponent == 0:
+            return self.constant(n, 1)
+        if exponent < 0:
+            return self.power(n, self.inv(n, a), -exponent)
+        if n == 0:
+            return self.domain.power(a, exponent)
+        value = self.power(n - 1, a[0], exponent)
+        if a[1] is None:
+            return value, None
+        below = self.mul(n - 1, self.constant(n - 1, exponent), self.power(n - 1, a[0], exponent - 1))
+        return value, self.mul(n - 1, below, a[1])
+
+    def operation(self, op: str, n: int, args: Sequence[Level]) -> Level:
+        """The value of an opcode with the given arguments. Raises Declined where it has no rule."""
+        ring = _RING.get(op)
+        if ring is not None:
+            return ring(self, n, *args)
+        if op in ("POW", "CONSTPOW"):
+            exponent = self._constant(n, args[1])
+            if exponent is not None and exponent.denominator == 1:
+                return self.power(n, args[0], int(exponent))
+            op = "POW"
+        return self._function(op, n, args)
+
+    def _constant(self, n: int, a: Level) -> Fraction | None:
+        """The rational number that a level value is constantly, if it is one."""
+        for _ in range(n):
+            if a[1] is not None:
+                return None
+            a = a[0]
+        return self.domain.rational(a)
+
+    def _function(self, op: str, n: int, args: Sequence[Level]) -> Level:
+        if n == 0:
+            return self.domain.function(op, args)
+        inner = [a[0] for a in args]
+        value = self._function(op, n - 1, inner)
+        if all(a[1] is None for a in args):
+            return value, None
+        if op == "POW":
+            return value, self._power_rate(n - 1, inner, [a[1] for a in args], value)
+        if op not in _SLOPE:
+            raise Invalid(f"{op.lower()} of what is not constant has no derivative")
+        return value, self.mul(n - 1, _SLOPE[op](self, n - 1, inner[0], value), args[0][1])
+
+    def _power_rate(self, n: int, inner: Sequence[Level], rates: Sequence[Level], value: Level) -> Level:
+        """p a^(p-1) a' + a^p log(a) p', each part only where a' or p' is not None."""
+        base, exponent = inner
+        rate = None
+        if rates[0] is not None:
+            lower = self.operation("POW", n, [base, self.sub(n, exponent, self.constant(n, 1))])
+            rate = self.mul(n, self.mul(n, exponent, lower), rates[0])
+        if rates[1] is not None:
+            grown = self.mul(n, value, self._function("LOG", n, [base]))
+            rate = self.add(n, rate, self.mul(n, grown, rates[1]))
+        return rate
+
+    def _abs_slope(self, n: int, a: Level) -> Level:
+        inner = a
+        for _ in range(n):
+            inner = inner[0]
+        self.domain.nonzero(inner)
+        return self._sign(n, a)
+
+    def _sign(self, n: int, a: Level) -> Level:
+        """sign(a) where a != 0 has been asked for: locally constant."""
+        if n == 0:
+            return self.domain.function("SIGN", [a])
+        return self._sign(n - 1, a[0]), None
+
+    def _one_and_square(self, n: int, sign: int, a: Level) -> Level:
+        """1 + a^2 or 1 - a^2."""
+        square = self.square(n, a)
+        one = self.constant(n, 1)
+        return self.add(n, one, square) if sign > 0 else self.sub(n, one, square)
+
+    def _over_root(self, n: int, a: Level) -> Level:
+        return self.inv(n, self._function("SQRT", n, [a]))
+
+
+_RING: dict[str, Callable[..., Level]] = {
+    "ADD": Chain.add,
+    "SUB": Chain.sub,
+    "MUL": Chain.mul,
+    "DIV": Chain.div,
+    "NEG": Chain.neg,
+    "SQ": Chain.square,
+    "TWICE": Chain.twice,
+    "INV": Chain.inv,
+    "TAN": lambda c, n, a: c.div(n, c._function("SIN", n, [a]), c._function("COS", n, [a])),
+    "EXPM1": lambda c, n, a: c.sub(n, c._function("EXP", n, [a]), c.constant(n, 1)),
+    "LOG1P": lambda c, n, a: c._function("LOG", n, [c.add(n, c.constant(n, 1), a)]),
+    "HYPOT": lambda c, n, a, b: c._function("SQRT", n, [c.add(n, c.square(n, a), c.square(n, b))]),
+}
+
+# The derivative of each function of one argument a, where v is its value.
+_SLOPE: dict[str, Callable[[Chain[Any], int, Level, Level], Level]] = {
+    "SQRT": lambda c, n, a, v: c.inv(n, c.twice(n, v)),
+    "FABS": lambda c, n, a, v: c._abs_slope(n, a),
+    "SIN": lambda c, n, a, v: c._function("COS", n, [a]),
+    "COS": lambda c, n, a, v: c.neg(n, c._function("SIN", n, [a])),
+    "EXP": lambda c, n, a, v: v,
+    "LOG": lambda c, n, a, v: c.inv(n, a),
+    "TANH": lambda c, n, a, v: c._one_and_square(n, -1, v),
+    "SINH": lambda c, n, a, v: c._function("COSH", n, [a]),
+    "COSH": lambda c, n, a, v: c._function("SINH", n, [a]),
+    "ASIN": lambda c, n, a, v: c._over_root(n, c._one_and_square(n, -1, a)),
+    "ACOS": lambda c, n, a, v: c.neg(n, c._over_root(n, c._one_and_square(n, -1, a))),
+    "ATAN": lambda c, n, a, v: c.inv(n, c._one_and_square(n, 1, a)),
+    "ASINH": lambda c, n, a, v: c._over_root(n, c._one_and_square(n, 1, a)),
+    "ACOSH": lambda c, n, a, v: c._over_root(n, c.sub(n, c.square(n, a), c.constant(n, 1))),
+    "ATANH": lambda c, n, a, v: c.inv(n, c._one_and_square(n, -1, a)),
+}

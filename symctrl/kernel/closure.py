@@ -1,0 +1,138 @@
+"""Is a statement closed: everything that it reads is defined, not through itself, and everything defined is read?
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Relies on: a definition by well-founded recursion has exactly one value. The walk below visits every (listing, level,
+law) that an evaluation of the statement can visit (level and law as in docs/certificates.md), and refuses a cycle.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from symctrl.kernel.certificate import Declined, Invalid, Meaning, Ref, Statement, at_node, per_node, split_name
+
+MAX_LEVEL = 4
+MAX_DEPTH = 100
+Visit = tuple[str, int, str | None]  # listing, level, law
+
+
+def require_closed(statement: Statement) -> None:
+    """Raises Invalid for a name that is unknown, unused or circular, or for what has no rate; Declined when too deep."""
+    _require_consistent_tables(statement)
+    walk = Reach(statement)
+    for assumption in statement.given:
+        for ref in assumption.of:
+            walk.listing(ref[0], "i", 0, None)
+    walk.listing(statement.claim.listing, "i", 0, None)
+    listings = {visit[0] for visit in walk.done}
+    law_inputs = {(law, u) for law, table in statement.laws.items() for u in table}
+    for what, all_of, used in (
+        ("listing", set(statement.listings), listings),
+        ("scalar", set(statement.scalars), walk.read),
+        ("name", set(statement.names), walk.read),
+        ("motion", set(statement.motion), walk.moved),
+        ("law", set(statement.laws), walk.laws),
+        ("input of a law", law_inputs, walk.replaced),
+    ):
+        idle = sorted(map(str, all_of - used))
+        if idle:
+            raise Invalid(f"the {what} {idle[0][:80]} is not used by the claim or an assumption")
+
+
+def effective_law(own: str | None, outer: str | None) -> str | None:
+    """The law under which a rate is taken inside another one: its own, or else the outer one.
+
+    Two different laws are declined: the inputs that only the outer one gives would be ambiguous.
+    """
+    if own is not None and outer is not None and own != outer:
+        raise Declined(f"a rate under the law {own[:60]!r} inside a rate under the law {outer[:60]!r}")
+    return outer if own is None else own
+
+
+class Reach:
+    """What the evaluation of listings reads, directly and through names, motion and laws."""
+
+    def __init__(self, statement: Statement) -> None:
+        self.statement = statement
+        self.done: set[Visit] = set()
+        self.open: set[Visit] = set()
+        self.read: set[str] = set()
+        self.moved: set[str] = set()
+        self.laws: set[str] = set()
+        self.replaced: set[tuple[str, str]] = set()
+        self.letters = {name: listing.letters for name, listing in statement.listings.items()}
+
+    def listing(self, name: str, letters: Collection[str], level: int, law: str | None) -> None:
+        """Visit a listing whose names may mention the node letters given."""
+        if not self.letters[name] <= set(letters):
+            raise Invalid(f"listing {name[:60]!r} mentions a node that is not bound where it is used")
+        visit = (name, level, law)
+        if visit in self.open:
+            raise Invalid(f"listing {name[:60]!r} is defined through itself")
+        if visit in self.done:
+            return
+        if level > MAX_LEVEL or len(self.open) >= MAX_DEPTH:
+            raise Declined(f"listing {name[:60]!r}: more than {MAX_LEVEL} rates or {MAX_DEPTH} names inside each other")
+        self.open.add(visit)
+        for step in self.statement.listings[name].code:
+            if step.op == "INPUT":
+                self._input(split_name(step.name)[0], level, law)
+        self.open.remove(visit)
+        self.done.add(visit)
+
+    def _input(self, key: str, level: int, law: str | None) -> None:
+        self.read.add(key)
+        letters = "i" if per_node(key) else ""
+        if key in self.statement.names:
+            self._meaning(self.statement.names[key], letters, level, law)
+            return
+        kind = self.statement.scalars.get(key)
+        if kind is None:
+            raise Invalid(f"the name {key} is not defined")
+        given = law_of(self.statement, key, law)
+        if kind == "input" and given is not None and law is not None:
+            self.replaced.add((law, key))
+            self.listing(given[0], letters, level, law)
+        elif kind != "parameter" and level > 0:
+            if key not in self.statement.motion:
+                raise Invalid(f"{key} has no rate: it is {'an input without a law' if kind == 'input' else 'not moved'}")
+            self.moved.add(key)
+            for below in range(level):
+                self.listing(self.statement.motion[key][0], letters, below, law)
+
+    def _meaning(self, meaning: Meaning, letters: str, level: int, law: str | None) -> None:
+        if meaning.kind == "constant":
+            return
+        if meaning.kind == "rate":
+            level += 1
+            if meaning.law is not None:
+                self.laws.add(meaning.law)
+            law = effective_law(meaning.law, law)
+        self.listing(meaning.of[0], {"sum": "ij", "total": "i"}.get(meaning.kind, letters), level, law)
+
+
+def law_of(statement: Statement, key: str, law: str | None) -> Ref | None:
+    """What the law puts in the place of an input, if it does."""
+    return None if law is None else statement.laws[law].get(key)
+
+
+def _require_consistent_tables(statement: Statement) -> None:
+    for key in statement.names:
+        if key in statement.scalars:
+            raise Invalid(f"{key} is both a scalar and a name")
+    for key in statement.motion:
+        if statement.scalars.get(key) not in ("state", "signal"):
+            raise Invalid(f"{key} has a motion, but is not a state or a signal")
+    for law, table in statement.laws.items():
+        for key in table:
+            if statement.scalars.get(key) != "input":
+                raise Invalid(f"the law {law[:60]!r} gives {key}, which is not an input")
+    for name, meaning in statement.names.items():
+        if meaning.law is not None and meaning.law not in statement.laws:
+            raise Invalid(f"name {name}: the law {meaning.law[:60]!r} is not given")
+    keys = (*statement.scalars, *statement.names)
+    symbols = {at_node(key, "").split("[")[0].rstrip(".") for key in keys if per_node(key)}
+    for key in keys:
+        if not per_node(key) and key.split("[")[0].split(".")[0] in symbols:
+            raise Invalid(f"{key}: its symbol belongs to every node, so it must be written with *")
