@@ -15,7 +15,7 @@ from symctrl.graph import ARITY
 Value = TypeVar("Value")
 
 
-class Unsupported(ValueError):
+class Unsupported(ValueError):  # noqa: N818
     """The domain gives the operation no meaning."""
 
 
