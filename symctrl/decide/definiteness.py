@@ -1,4 +1,4 @@
-"""Is a rational symmetric matrix positive definite, semidefinite or neither? Exactly, with evidence either way."""
+"""Whether a rational symmetric matrix is positive definite, semidefinite or neither, with exact evidence."""
 
 from __future__ import annotations
 
@@ -24,14 +24,16 @@ INDEFINITE: Name = "not positive semidefinite"
 _SMALL = 10
 # Relative to the size, an eigenvalue of a unit-diagonal matrix that doubles can tell from zero.
 _CLEAR = 1e-12
+_LONGEST = 13_000  # bits of a number in a certificate: 3913 digits
 
 
 @dataclass(frozen=True)
 class Definiteness:
-    """The answer for A of shape (n, n), with one of two kinds of evidence.
+    """The answer for A of shape (n, n), with its evidence.
 
     witness: x with x'Ax < 0 where A is not positive semidefinite. leaf: otherwise a leaf proof of
-    docs/certificates.md, `ldl` or `dominant`, with numbers as strings "p/q". rank: exact.
+    docs/certificates.md, `ldl` or `dominant`, with numbers as strings "p/q"; None where its numbers are
+    longer than a certificate may hold. rank: exact.
     """
 
     definiteness: Name
@@ -60,7 +62,7 @@ def decide_matrix(rows: Sequence[Sequence[Fraction]]) -> Definiteness:
 
 
 def _decide_inner(rows: Sequence[Sequence[Fraction]], kept: list[int], inner: Symmetric) -> Definiteness:
-    """Floats first where the matrix is large or clearly not semidefinite, exact factors where they do not settle."""
+    """Floats first where the matrix is large or clearly not semidefinite; exact factors settle the rest."""
     n = len(rows)
     smallest, vector = _smallest(inner)
     clear = _CLEAR * inner.size
@@ -79,6 +81,8 @@ def _decide_inner(rows: Sequence[Sequence[Fraction]], kept: list[int], inner: Sy
     factors = factor(inner.integers, inner.denominator)
     if isinstance(factors, list):
         return _indefinite(rows, _spread(shortened(inner, factors), kept, n))
+    if any(_long(a) for row in (*factors.lower, factors.diagonal) for a in row):
+        return _definite(n, factors.rank, None)
     diagonal = [str(d) for d in _spread(factors.diagonal, kept, n)]
     lower = _spread_rows(factors.lower, kept, n, Fraction(1))
     return _definite(n, factors.rank, {"ldl": {"lower": lower, "diagonal": diagonal}})
@@ -126,13 +130,17 @@ def _smallest(matrix: Symmetric) -> tuple[float, Any]:
     return float(values[0]), vectors[:, 0]
 
 
-def _definite(n: int, rank: int, leaf: Mapping[str, Any]) -> Definiteness:
+def _definite(n: int, rank: int, leaf: Mapping[str, Any] | None) -> Definiteness:
     return Definiteness(DEFINITE if rank == n else SEMIDEFINITE, rank, leaf=leaf)
 
 
 def _indefinite(rows: Sequence[Sequence[Fraction]], x: Sequence[Fraction]) -> Definiteness:
     integers = Symmetric(rows).integers
     return Definiteness(INDEFINITE, int(fmpz_mat(integers).rank()), witness=tuple(x))
+
+
+def _long(a: Fraction) -> bool:
+    return max(a.numerator.bit_length(), a.denominator.bit_length()) > _LONGEST
 
 
 def _spread(x: Sequence[Fraction], kept: Sequence[int], n: int) -> list[Fraction]:

@@ -50,7 +50,7 @@ def from_pair(matrix: Symmetric) -> list[Fraction] | None:
 
 
 def from_eigenvector(matrix: Symmetric, vector: Any) -> list[Fraction] | None:
-    """A negative vector close to a float eigenvector of `matrix.floats`, shape (n,); None where there is none."""
+    """A negative vector close to a float eigenvector of `matrix.floats`, shape (n,); None: not found."""
     exact = [Fraction(float(v)) * Fraction(2) ** e for v, e in zip(vector, matrix.exponents, strict=True)]
     return _first(matrix, exact, _BITS)
 
@@ -69,9 +69,9 @@ def _candidates(matrix: Symmetric, x: Sequence[Fraction], bits: Iterable[int]) -
 
     What is clearly positive in floating point is left out: it would cost an exact evaluation.
     """
-    units = [Fraction(1)] * len(x), [Fraction(2) ** e for e in matrix.exponents]
-    if all(e == 0 for e in matrix.exponents):
-        units = units[:1]
+    units = [[Fraction(1)] * len(x)]
+    if any(matrix.exponents):
+        units.append([Fraction(2) ** e for e in matrix.exponents])
     for b in bits:
         for unit in units:
             ratios = [a / u for a, u in zip(x, unit, strict=True)]

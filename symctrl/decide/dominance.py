@@ -1,9 +1,9 @@
-"""A - L L^T diagonally dominant: positive definiteness of larger matrices from a rounded float Cholesky factor.
+"""A - L L^T diagonally dominant: definiteness of larger matrices from a rounded float Cholesky factor.
 
 Theorem (Gershgorin): a symmetric R with t_i R_ii >= sum over j != i of t_j |R_ij|, all t_i > 0, is positive
 semidefinite, and definite where every inequality is strict. Then A = L L^T + R is too, whatever L is, so that
-L may be short dyadic numbers (Rump, Verification of positive definiteness, BIT 46, 2006, has the same idea with
-floating point bounds).
+L may be short dyadic numbers (the idea of Rump, Verification of positive definiteness, BIT 46, 2006, who
+bounds the remainder in floating point).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from symctrl.decide.scaling import Symmetric
 
 @dataclass(frozen=True)
 class Dominance:
-    """`lower` has the rows of L up to the diagonal; the remainder A - L L^T is strictly dominant with `scale`."""
+    """`lower`: the rows of L up to the diagonal; A - L L^T is strictly dominant with `scale`."""
 
     lower: list[list[Fraction]]
     scale: list[Fraction]

@@ -1,8 +1,9 @@
 """Exact LDL^T of a symmetric integer matrix, fraction-free.
 
 Bareiss elimination keeps the Schur complements as integers: after pivots p_1, .., p_k the stored entry is the
-complement times p_k (a minor of the matrix, by Sylvester's identity), so that each division is exact. A semidefinite
-matrix needs no pivoting: a zero pivot there has a zero column (Higham, Accuracy and Stability, section 10.3).
+complement times p_k (a minor of the matrix, by Sylvester's identity), so that each division is exact. A
+semidefinite matrix needs no pivoting: a zero pivot there has a zero column (Higham, Accuracy and Stability of
+Numerical Algorithms, section 10.3).
 """
 
 from __future__ import annotations
@@ -74,7 +75,7 @@ def _saddle(c: int, d: int, k: int, i: int) -> dict[int, Fraction]:
 
 
 def _solve(work: list[list[Any]], pivots: list[int], k: int, tail: dict[int, Fraction]) -> list[Fraction]:
-    """x with (L^T x)_j = 0 for j < k and x_j from `tail` otherwise: x'Ax is then the complement's value at `tail`."""
+    """x with (L^T x)_j = 0 for j < k, and `tail` after: x'Ax is the complement's value at `tail`."""
     x = [Fraction(0)] * len(work)
     for j, value in tail.items():
         x[j] = value
