@@ -1,0 +1,81 @@
+"""Deciding the claims of one study in several processes.
+
+The processes put what they find into the store and hand nothing back: the caller then decides the whole study
+as ever and finds the work done. So the result is that of one process, whatever happened to the others.
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from symctrl import registry
+from symctrl.store import Store
+
+if TYPE_CHECKING:
+    from symctrl.study import Study
+
+
+@dataclass(frozen=True)
+class Request:
+    """A study as the user named it, with its graph and values: what a process needs to build it again."""
+
+    study: str
+    graph: str | None
+    values: Mapping[str, str]
+
+    def build(self) -> Study:
+        """Raises InputError, or StudyError for what the study does not know."""
+        study = registry.load(self.study)
+        if self.graph is None and not self.values:
+            return study
+        from symctrl import graphs  # noqa: PLC0415  (networkx is slow to import)
+
+        with registry.locate(self.study).blamed():
+            return study.at(graphs.parse(self.graph) if self.graph else None, self.values)
+
+
+def warm(
+    request: Request, ids: Sequence[str], store: Store, jobs: int, progress: Callable[[str], None]
+) -> None:
+    """Decide each of `ids` in one of `jobs` processes, into `store`; a failure is left to the caller to meet."""
+    context = multiprocessing.get_context("spawn")
+    start = (request, store.folder, store.run)
+    executor = ProcessPoolExecutor(jobs, mp_context=context, initializer=_start, initargs=start)
+    try:
+        futures = {executor.submit(_decide, name): name for name in ids}
+        for future in as_completed(futures):
+            if isinstance(future.exception(), BrokenProcessPool):
+                return
+            progress(futures[future])
+    except BaseException:
+        executor.shutdown(wait=False, cancel_futures=True)
+        for child in multiprocessing.active_children():
+            child.terminate()
+        raise
+    finally:
+        executor.shutdown()
+
+
+_worker: tuple[Study, Store] | None = None
+
+
+def _start(request: Request, folder: Path, run: str) -> None:
+    # At Ctrl-C a process of the pool dies at once and silently; the caller has the word.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    global _worker  # noqa: PLW0603  (one study a process, built once)
+    _worker = (request.build(), Store(folder, run))
+
+
+def _decide(name: str) -> None:
+    from symctrl.verify import verify  # noqa: PLC0415  (heavy)
+
+    assert _worker is not None
+    study, store = _worker
+    verify(study, {name}, store, lambda _: None)
