@@ -44,7 +44,7 @@ class Request:
 def warm(
     request: Request, ids: Sequence[str], store: Store, jobs: int, progress: Callable[[str], None]
 ) -> None:
-    """Decide each of `ids` in one of `jobs` processes, into `store`; a failure is left to the caller to meet."""
+    """Decide each of `ids` in one of `jobs` processes, into `store`; a failure is left for the caller."""
     context = multiprocessing.get_context("spawn")
     start = (request, store.folder, store.run)
     executor = ProcessPoolExecutor(jobs, mp_context=context, initializer=_start, initargs=start)

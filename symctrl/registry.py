@@ -84,8 +84,8 @@ class Place:
     def blamed(self) -> Iterator[None]:
         """Errors inside are told as the user can use them.
 
-        One that has passed through the author's code becomes StudyFailedError. A StudyError that has not becomes
-        InputError: the user has asked for what the study does not have. Others are the tool's own and go on.
+        One that has passed through the author's code becomes StudyFailedError. A StudyError that has not
+        becomes InputError: the user has asked for what the study does not have. Others are the tool's own.
         """
         try:
             yield

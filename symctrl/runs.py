@@ -1,4 +1,4 @@
-"""A run of `verify`: which claims of which studies are decided, and where their certificates go."""
+"""Runs of `verify`: which claims of which studies are decided, and where their certificates go."""
 
 from __future__ import annotations
 
