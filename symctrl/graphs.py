@@ -27,8 +27,11 @@ def parse(spec: str) -> nx.Graph:
     which they are first seen. Raises GraphSpecError.
     """
     family, colon, size = spec.partition(":")
-    if colon and (family in _FAMILIES or not Path(spec).exists()):
+    if colon and family in _FAMILIES:
         return _of_family(spec, family, size)
+    if not Path(spec).is_file():
+        known = ", ".join(f"{known}:N" for known in _FAMILIES)
+        raise GraphSpecError(f"graph {spec!r}: is neither a file nor one of {known}")
     return _of_file(Path(spec))
 
 
@@ -64,9 +67,6 @@ _FAMILIES: dict[str, tuple[int, Callable[[int], Edges]]] = {
 
 
 def _of_family(spec: str, family: str, size: str) -> nx.Graph:
-    if family not in _FAMILIES:
-        known = ", ".join(f"{known}:N" for known in _FAMILIES)
-        raise GraphSpecError(f"graph {spec}: is neither a file nor one of {known}")
     least, edges = _FAMILIES[family]
     if not re.fullmatch("[0-9]{1,9}", size):
         raise GraphSpecError(f"graph {spec}: the number of nodes must be a whole number like 5, not {size!r}")
