@@ -9,11 +9,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property
+from itertools import accumulate
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import casadi as ca
@@ -25,18 +28,18 @@ Value = TypeVar("Value")
 
 # Every scalar opcode that a CasADi SX function can hold and that has a meaning in at least one domain,
 # with its number of arguments.
-ARITY: Mapping[str, int] = {
-    **dict.fromkeys(
-        "NEG EXP LOG SQRT SQ TWICE SIN COS TAN ASIN ACOS ATAN SINH COSH TANH ASINH ACOSH ATANH "
-        "FABS SIGN FLOOR CEIL NOT ERF ERFINV INV LOG1P EXPM1".split(),
-        1,
-    ),
-    **dict.fromkeys(
-        "ADD SUB MUL DIV POW CONSTPOW LT LE EQ NE AND OR FMOD REMAINDER COPYSIGN IF_ELSE_ZERO FMIN FMAX "
-        "ATAN2 HYPOT".split(),
-        2,
-    ),
-}
+# fmt: off
+_UNARY = (
+    "NEG", "EXP", "LOG", "SQRT", "SQ", "TWICE", "SIN", "COS", "TAN", "ASIN", "ACOS", "ATAN", "SINH", "COSH",
+    "TANH", "ASINH", "ACOSH", "ATANH", "FABS", "SIGN", "FLOOR", "CEIL", "NOT", "ERF", "ERFINV", "INV",
+    "LOG1P", "EXPM1",
+)
+_BINARY = (
+    "ADD", "SUB", "MUL", "DIV", "POW", "CONSTPOW", "LT", "LE", "EQ", "NE", "AND", "OR", "FMOD", "REMAINDER",
+    "COPYSIGN", "IF_ELSE_ZERO", "FMIN", "FMAX", "ATAN2", "HYPOT",
+)
+# fmt: on
+ARITY: Mapping[str, int] = {**dict.fromkeys(_UNARY, 1), **dict.fromkeys(_BINARY, 2)}
 _TRANSPARENT = frozenset(("ASSIGN", "LIFT"))
 _OPCODE_NAMES = {getattr(ca, name): name[3:] for name in dir(ca) if name.startswith("OP_")}
 MAX_LITERAL_DIGITS = 10
@@ -85,7 +88,10 @@ class Tape:
 
 @contextmanager
 def unfolded() -> Iterator[None]:
-    """Build CasADi expressions as written: its simplification is off inside and restored after, also on errors."""
+    """Build CasADi expressions as written: its simplification is off inside.
+
+    The switch is global to the process; it is restored after, also on errors and when nested.
+    """
     before = ca.GlobalOptions.getSimplificationOnTheFly()
     ca.GlobalOptions.setSimplificationOnTheFly(False)
     try:
@@ -95,37 +101,44 @@ def unfolded() -> Iterator[None]:
 
 
 def exact_literal(value: float) -> Fraction:
-    """The decimal that a double was written as, if that has at most ten significant digits.
+    """The decimal that a double was written as, if that has at most ten significant digits; any integer.
 
     A computed double (1/3, pi, 0.1 + 0.2) has no short decimal and is refused: GraphError.
     """
     text = repr(float(value))
-    if text in ("nan", "inf", "-inf"):
-        raise GraphError(f"the constant {text} has no exact value; an expression divides by a literal zero or overflows")
+    if not math.isfinite(value):
+        raise GraphError(
+            f"the constant {text} has no exact value: somewhere a literal is divided by zero or overflows"
+        )
     if float(value).is_integer() and abs(value) <= 2**53:
         return Fraction(int(value))
     mantissa = text.split("e")[0].replace(".", "").lstrip("-0")
     if len(mantissa.rstrip("0")) > MAX_LITERAL_DIGITS:
         raise GraphError(
-            f"the literal {text} has more than {MAX_LITERAL_DIGITS} digits, so it is not known which number is meant; "
-            'write it as a string, like "1/3" or "0.12345678901", or as a parameter with an exact value'
+            f"the literal {text} has more than {MAX_LITERAL_DIGITS} digits, so it is not known which number "
+            'is meant; write it as a string, like "1/3" or "0.12345678901", or as a parameter'
         )
     return Fraction(text)
 
 
 def read(function: ca.Function, names: Sequence[str] | None = None) -> Tape:
-    """The tape of an SX function: nested calls expanded, literals exact, equal instructions merged.
+    """The tape of a function: MX and nested calls expanded, literals exact, equal instructions merged.
 
-    names: one per scalar nonzero of all inputs, in order; by default `input[k]`.
+    names: one per scalar nonzero of all inputs, in order, all different; by default `input[k]`. Inputs on
+    which no output depends are not in the tape.
     Raises GraphError for a free symbol, an operation without a scalar meaning, or an inexact literal.
     """
-    count = sum(function.nnz_in(k) for k in range(function.n_in()))
+    sizes = [(function.name_in(k), function.nnz_in(k)) for k in range(function.n_in())]
     if names is None:
-        names = [
-            f"{function.name_in(k)}[{j + 1}]" for k in range(function.n_in()) for j in range(function.nnz_in(k))
-        ]
+        names = [f"{name}[{j + 1}]" for name, size in sizes for j in range(size)]
+    count = sum(size for _, size in sizes)
     if len(names) != count:
-        raise GraphError(f"function {function.name()} has {count} scalar inputs, but {len(names)} names were given")
+        raise GraphError(
+            f"function {function.name()} has {count} scalar inputs, but {len(names)} names were given"
+        )
+    twice = sorted(name for name, times in Counter(names).items() if times > 1)
+    if twice:
+        raise GraphError(f"function {function.name()} needs different names, but {twice[0]} was given twice")
     builder = _Builder()
     outputs = builder.expand(function, [builder.emit(Instruction("INPUT", name=name)) for name in names])
     return builder.finish(outputs)
@@ -145,14 +158,16 @@ class _Builder:
     def expand(self, function: ca.Function, inputs: Sequence[int]) -> list[int]:
         """Registers of all output nonzeros of `function` applied to the registers `inputs`."""
         if function.has_free():
-            raise GraphError(f"function {function.name()} has free symbols: {', '.join(map(str, function.get_free()))}")
-        if not function.is_a("SXFunction"):
-            raise GraphError(f"a call to {function.name()} ({function.class_name()}) has no scalar instructions to read")
+            free = ", ".join(map(str, function.get_free()))
+            raise GraphError(
+                f"function {function.name()} has free symbols: {free}; every symbol must be an input"
+            )
+        function = _scalar(function)
         first_in = _offsets([function.nnz_in(k) for k in range(function.n_in())])
         first_out = _offsets([function.nnz_out(k) for k in range(function.n_out())])
         work: dict[int, int] = {}
-        results = [-1] * first_out[-1]
-        calls: Any = None
+        results: dict[int, int] = {}
+        nodes: Any = None
         for k in range(function.n_instructions()):
             op = _OPCODE_NAMES.get(function.instruction_id(k), str(function.instruction_id(k)))
             into, source = function.instruction_output(k), function.instruction_input(k)
@@ -161,20 +176,21 @@ class _Builder:
             elif op == "OUTPUT":
                 results[first_out[into[0]] + into[1]] = work[source[0]]
             elif op == "CONST":
-                value = exact_literal(function.instruction_constant(k))
-                work[into[0]] = self.emit(Instruction("CONST", value=value))
+                work[into[0]] = self.emit(Instruction("CONST", value=_literal(function, k)))
             elif op == "CALL":
-                calls = function.instructions_sx() if calls is None else calls
-                called = self.expand(calls.nz[k].which_function(), [work[s] for s in source])
+                nodes = function.instructions_sx() if nodes is None else nodes
+                called = self.expand(nodes.nz[k].which_function(), [work[s] for s in source])
                 work.update((w, r) for w, r in zip(into, called, strict=True) if w >= 0)
             elif op in _TRANSPARENT:
                 work[into[0]] = work[source[0]]
             elif op in ARITY:
                 work[into[0]] = self.emit(Instruction(op, tuple(work[s] for s in source[: ARITY[op]])))
             else:
-                raise GraphError(f"instruction {k} of function {function.name()} is {op}, which has no exact meaning here")
-        zero = Instruction("CONST")
-        return [self.emit(zero) if r < 0 else r for r in results]
+                raise GraphError(
+                    f"instruction {k} of function {function.name()} is {op.lower()}, which has no exact "
+                    "meaning; write it with scalar operations"
+                )
+        return [results[k] for k in range(first_out[-1])]
 
     def finish(self, outputs: Sequence[int]) -> Tape:
         """Only what the outputs need, renumbered."""
@@ -191,11 +207,44 @@ class _Builder:
         return Tape(code, tuple(new[r] for r in outputs))
 
 
+def _scalar(function: ca.Function) -> ca.Function:
+    """The function as scalar instructions, expanded as written if it is one of matrices."""
+    if function.is_a("SXFunction"):
+        return function
+    named = f"function {function.name()} ({function.class_name()})"
+    if not function.is_a("MXFunction"):
+        raise GraphError(f"{named} has no scalar instructions to read; write it with scalar operations")
+    try:
+        with unfolded():
+            return function.expand()
+    except RuntimeError as error:
+        reason = str(error).strip().splitlines()[-1]
+        raise GraphError(f"{named} cannot be expanded into scalar instructions: {reason}") from error
+
+
+def _literal(function: ca.Function, k: int) -> Fraction:
+    """The exact value of the constant in instruction k; an error also says where the constant is used."""
+    try:
+        return exact_literal(function.instruction_constant(k))
+    except GraphError as error:
+        where = f"in function {function.name()}, {_use(function, k)}"
+        raise GraphError(f"{error} ({where})") from None
+
+
+def _use(function: ca.Function, k: int) -> str:
+    """Where the result of instruction k is first used."""
+    (register,) = function.instruction_output(k)
+    later = (j for j in range(k + 1, function.n_instructions()) if function.instruction_id(j) != ca.OP_INPUT)
+    user = next(j for j in later if register in function.instruction_input(j))
+    op = _OPCODE_NAMES[function.instruction_id(user)].lower()
+    if op == "output":
+        name = function.name_out(function.instruction_output(user)[0])
+        return f"as entry {function.instruction_output(user)[1] + 1} of output {name}"
+    return f"as an argument of instruction {user}, {op}"
+
+
 def _offsets(sizes: Sequence[int]) -> list[int]:
-    result = [0]
-    for size in sizes:
-        result.append(result[-1] + size)
-    return result
+    return [0, *accumulate(sizes)]
 
 
 def interpret(
@@ -203,55 +252,60 @@ def interpret(
 ) -> list[Value]:
     """The values of all scalar outputs in `domain`.
 
-    inputs: by scalar name, or one per scalar nonzero in order. Raises GraphError where the function cannot be
-    read, and the domain's own error where it gives an operation no meaning.
+    inputs: by scalar name, or one per scalar nonzero (of a tape: per name in `tape.inputs`) in order.
+    Raises GraphError where the function cannot be read or an input has no value, Unsupported where the domain
+    gives an operation no meaning, and the domain's own error where it has no value.
     """
-    names = None
-    if not isinstance(function, Tape):
+    if isinstance(function, Tape):
+        tape = function
         if not isinstance(inputs, Mapping):
-            inputs = {f"#{k}": value for k, value in enumerate(inputs)}
+            return prebound(tape, domain)(inputs)
+    else:
+        names = None
+        if not isinstance(inputs, Mapping):
+            inputs = {f"#{k + 1}": value for k, value in enumerate(inputs)}
             names = list(inputs)
-        function = read(function, names)
-    elif not isinstance(inputs, Mapping):
-        inputs = dict(zip(function.inputs, inputs, strict=True))
-    work: list[Value] = []
-    for step in function.code:
-        if step.op == "INPUT":
-            work.append(inputs[step.name])
-        elif step.op == "CONST":
-            work.append(domain.constant(step.value))
-        else:
-            work.append(domain.operation(step.op)(*[work[a] for a in step.args]))
-    return [work[r] for r in function.outputs]
+        tape = read(function, names)
+    missing = [name for name in tape.inputs if name not in inputs]
+    if missing:
+        raise GraphError(f"no value was given for {', '.join(missing)}")
+    return prebound(tape, domain)([inputs[name] for name in tape.inputs])
 
 
 def prebound(tape: Tape, domain: Domain[Value]) -> Callable[[Sequence[Value]], list[Value]]:
     """The walk over `tape` in `domain` with every operation looked up once, for many evaluations.
 
-    The result takes one value per name in `tape.inputs`, in order.
+    The result takes one value per name in `tape.inputs`, in order, and raises GraphError for another number.
+    Raises Unsupported where the domain gives an operation no meaning.
     """
-    names = {name: k for k, name in enumerate(tape.inputs)}
+    position = {name: k for k, name in enumerate(tape.inputs)}
+    operation = cache(domain.operation)
     steps: list[tuple[int, Any, tuple[int, ...]]] = []
     for step in tape.code:
         if step.op == "INPUT":
-            steps.append((0, names[step.name], ()))
+            steps.append((_TAKE, position[step.name], ()))
         elif step.op == "CONST":
-            steps.append((1, domain.constant(step.value), ()))
+            steps.append((_CONSTANT, domain.constant(step.value), ()))
         else:
-            steps.append((len(step.args) + 1, domain.operation(step.op), step.args))
+            steps.append((len(step.args), operation(step.op), step.args))
 
     def run(inputs: Sequence[Value]) -> list[Value]:
+        if len(inputs) != len(position):
+            raise GraphError(f"the tape has {len(position)} inputs, but {len(inputs)} values were given")
         work: list[Value] = []
         push = work.append
         for kind, what, args in steps:
-            if kind == 3:
+            if kind == 2:
                 push(what(work[args[0]], work[args[1]]))
-            elif kind == 2:
+            elif kind == 1:
                 push(what(work[args[0]]))
-            elif kind == 0:
+            elif kind == _TAKE:
                 push(inputs[what])
             else:
                 push(what)
         return [work[r] for r in tape.outputs]
 
     return run
+
+
+_TAKE, _CONSTANT = 3, 0  # kinds of a step beside the number of an operation's arguments

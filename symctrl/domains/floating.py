@@ -43,7 +43,7 @@ def _erfinv(a: Samples) -> Any:
 
 def _remainder(a: float, b: float) -> float:
     """The IEEE remainder, which numpy lacks; Python's raises where IEEE gives nan."""
-    return math.remainder(a, b) if math.isfinite(a) and b == b != 0 else math.nan
+    return math.remainder(a, b) if math.isfinite(a) and b and not math.isnan(b) else math.nan
 
 
 class FloatDomain(Domain[Samples]):
