@@ -2,13 +2,13 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on: the derivative of a composition of differentiable functions. Where an operation is not differentiable
-everywhere, the rule asks the domain for what it needs: x/y and 1/y, that y != 0 (by `inv`); sqrt(x), that
-sqrt(x) != 0; |x|, that x != 0; log and powers, what their base operations need. sign, floor, comparisons and
-switches have no derivative here, not even where they are locally constant.
+Relies on: the derivative of a composition of differentiable functions. Where an operation is not
+differentiable everywhere, the rule asks the domain for what it needs: x/y and 1/y, that y != 0 (by `inv`);
+sqrt(x), that sqrt(x) != 0; |x|, that x != 0; log and powers, what their base operations need. sign, floor,
+comparisons and switches have no derivative here, not even where they are locally constant.
 
-A level value is described in `evaluation`. An operation all of whose arguments have the derivative None is a constant:
-its derivative is None, and nothing is asked.
+A level value is described in `evaluation`. An operation all of whose arguments have the derivative None is a
+constant: its derivative is None, and nothing is asked.
 """
 
 from __future__ import annotations
@@ -41,8 +41,8 @@ class Domain(Generic[Value]):
         raise NotImplementedError
 
     def function(self, op: str, args: Sequence[Value]) -> Value:
-        """An operation that is not a ring operation, by its opcode: SQRT FABS SIGN SIN COS EXP LOG TANH ..., and POW
-        with an exponent that is not an integer constant. Raises Declined for one without a rule."""
+        """An operation that is not a ring operation, by its opcode: SQRT FABS SIGN SIN COS EXP LOG TANH ...,
+        and POW with an exponent that is not an integer constant. Raises Declined for one without a rule."""
         raise NotImplementedError
 
     def nonzero(self, a: Value) -> None:
@@ -75,7 +75,7 @@ class Chain(Generic[Value]):
         self.domain = domain
 
     def constant(self, level: int, value: Fraction | int) -> Level:
-        inner = self.domain.constant(Fraction(value))
+        inner: Level = self.domain.constant(Fraction(value))
         for _ in range(level):
             inner = (inner, None)
         return inner

@@ -1,16 +1,25 @@
-"""Is a statement closed: everything that it reads is defined, not through itself, and everything defined is read?
+"""Is a statement closed: what it reads is defined, not through itself, and what is defined is read?
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on: a definition by well-founded recursion has exactly one value. The walk below visits every (listing, level,
-law) that an evaluation of the statement can visit (level and law as in docs/certificates.md), and refuses a cycle.
+Relies on: a definition by well-founded recursion has exactly one value. The walk below visits every (listing,
+level, law) that an evaluation of the statement can visit (as in docs/certificates.md), and refuses a cycle.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection
 
-from symctrl.kernel.certificate import Declined, Invalid, Meaning, Ref, Statement, at_node, per_node, split_name
+from symctrl.kernel.certificate import (
+    Declined,
+    Invalid,
+    Meaning,
+    Ref,
+    Statement,
+    at_node,
+    per_node,
+    split_name,
+)
 
 MAX_LEVEL = 4
 MAX_DEPTH = 100
@@ -18,7 +27,7 @@ Visit = tuple[str, int, str | None]  # listing, level, law
 
 
 def require_closed(statement: Statement) -> None:
-    """Raises Invalid for a name that is unknown, unused or circular, or for what has no rate; Declined when too deep."""
+    """Raises Invalid for a name that is unknown, idle, circular or without a rate; Declined if too deep."""
     _require_consistent_tables(statement)
     walk = Reach(statement)
     for assumption in statement.given:
@@ -73,7 +82,8 @@ class Reach:
         if visit in self.done:
             return
         if level > MAX_LEVEL or len(self.open) >= MAX_DEPTH:
-            raise Declined(f"listing {name[:60]!r}: more than {MAX_LEVEL} rates or {MAX_DEPTH} names inside each other")
+            limit = f"more than {MAX_LEVEL} rates or {MAX_DEPTH} names inside each other"
+            raise Declined(f"listing {name[:60]!r}: {limit}")
         self.open.add(visit)
         for step in self.statement.listings[name].code:
             if step.op == "INPUT":
@@ -96,7 +106,9 @@ class Reach:
             self.listing(given[0], letters, level, law)
         elif kind != "parameter" and level > 0:
             if key not in self.statement.motion:
-                raise Invalid(f"{key} has no rate: it is {'an input without a law' if kind == 'input' else 'not moved'}")
+                raise Invalid(
+                    f"{key} has no rate: {'no law gives it' if kind == 'input' else 'it has no motion'}"
+                )
             self.moved.add(key)
             for below in range(level):
                 self.listing(self.statement.motion[key][0], letters, below, law)

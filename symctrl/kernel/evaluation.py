@@ -2,9 +2,9 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on: a value at level n is the truncated tower of iterated derivatives along the motion, held as nested pairs;
-the chain rule of each operation carries it from the arguments to the result (`chain`). A sum over neighbours or over
-nodes is differentiated term by term. `closure` has shown that the recursion ends.
+Relies on: a value at level n is the truncated tower of iterated derivatives along the motion, held as nested
+pairs; the chain rule of each operation carries it from the arguments to the result (`chain`). A sum over
+neighbours or over nodes is differentiated term by term. `closure` has shown that the recursion ends.
 
 A level value is a domain value at level 0 and a pair (value, derivative) of level values one lower above; a
 derivative that is None is that of a constant: zero.
@@ -27,16 +27,14 @@ Level = Any  # a level value
 class Sums(Protocol):
     """What a sum over neighbours (`node` is its node) or a total (`node` is "") is, as a level value."""
 
-    def value(
-        self, walk: Evaluation[Any], key: str, meaning: Meaning, node: str, level: int, law: str | None
-    ) -> Level: ...
+    def value(self, walk: Evaluation[Any], key: str, node: str, level: int, law: str | None) -> Level: ...
 
 
 class Evaluation(Generic[Value]):
     """Evaluates the outputs of listings; each (listing, level, law, binding) once.
 
     free: the domain value of a free symbol, by its name at its node (`q[1]`, `q.i[1]`, `q.2[1]`).
-    A binding counts only the letters that the listing itself mentions, so a listing without a node is run once.
+    A binding counts only by the letters that the listing itself mentions: one without a node is run once.
     """
 
     def __init__(
@@ -102,7 +100,7 @@ class Evaluation(Generic[Value]):
         if meaning.kind == "rate":
             derivative = self.output(meaning.of, binding, level + 1, effective_law(meaning.law, law))[1]
             return self.chain.zero(level) if derivative is None else derivative
-        return self.sums.value(self, key, meaning, node, level, law)
+        return self.sums.value(self, key, node, level, law)
 
 
 class GraphSums:
@@ -114,9 +112,8 @@ class GraphSums:
     def __init__(self, neighbours: Mapping[str, Sequence[str]]) -> None:
         self.neighbours = neighbours
 
-    def value(
-        self, walk: Evaluation[Any], key: str, meaning: Meaning, node: str, level: int, law: str | None
-    ) -> Level:
+    def value(self, walk: Evaluation[Any], key: str, node: str, level: int, law: str | None) -> Level:
+        meaning = walk.statement.names[key]
         if meaning.kind == "sum" and node not in self.neighbours:
             raise Invalid(f"{key}: the graph has no node {node[:40]!r}")
         if meaning.kind == "sum":
@@ -132,7 +129,5 @@ class GraphSums:
 class NoSums:
     """Where a sum has no meaning: every one is refused."""
 
-    def value(
-        self, walk: Evaluation[Any], key: str, meaning: Meaning, node: str, level: int, law: str | None
-    ) -> Level:
+    def value(self, walk: Evaluation[Any], key: str, node: str, level: int, law: str | None) -> Level:
         raise Invalid(f"{key} is a sum inside a sum, or a sum without a graph")
