@@ -1,0 +1,287 @@
+"""From expressions to a problem: every name that a claim reaches, as instruction lists and assumptions.
+
+The problem holds exactly what is needed: the claim's graph, the definitions, motions and laws that it reaches, and those
+of the study's assumptions that speak only of symbols that occur.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+import casadi as ca
+
+from symctrl.entries import component_names
+from symctrl.expr import Expr, walk
+from symctrl.graph import Instruction, Tape, read, unfolded
+from symctrl.literals import as_sx, is_constant_name
+from symctrl.problem import Assumption, Claim, Meaning, Output, Problem, split, star
+from symctrl.records import Named, Rate, Record, Sum, Undefined, letters
+from symctrl.statements import Bound, Definite, Equal, Nonzero, Statement
+
+if TYPE_CHECKING:
+    from symctrl.study import Study
+
+
+class UndefinedLetter(ValueError):  # noqa: N818
+    """The claim uses a letter that the paper never defines."""
+
+
+class Collector:
+    """Gathers one problem. values: exact values of parameters that are bound, by scalar name."""
+
+    def __init__(self, study: Study, values: Mapping[str, Fraction] | None = None) -> None:
+        self.study = study
+        self.values = dict(values or {})
+        self.listings: dict[str, Tape] = {}
+        self.scalars: dict[str, str] = {}
+        self.names: dict[str, Meaning] = {}
+        self.motion: dict[str, Output] = {}
+        self.laws: dict[str, dict[str, Output]] = {}
+        self.given: list[Assumption] = []
+        self.labels: dict[str, str] = {}
+        self._law_in_use: list[str | None] = [None]
+
+    def problem(
+        self, claim: Statement, id_: str, hypotheses: Sequence[Statement] = (), matrix: Mapping[str, Any] | None = None
+    ) -> Problem:
+        """The problem of an equation, a bound, definiteness (with its tree) or conformity, under hypotheses."""
+        exprs, kind, shape = _sides(claim)
+        self.add("claim", exprs)
+        for hypothesis in hypotheses:
+            self.assume(hypothesis, "parameter")
+        self._assume_what_occurs()
+        return Problem(
+            self.study.name,
+            id_,
+            claim.text(),
+            self.listings,
+            Claim(kind, "claim", shape, matrix),
+            self.scalars,
+            self.names,
+            self.motion,
+            self.laws,
+            tuple(self.given),
+        )
+
+    # Listings
+
+    def add(self, name: str, exprs: Sequence[Expr]) -> None:
+        """The listing of expressions one after another, and all that it reaches."""
+        if name in self.listings:
+            return
+        records: dict[str, Record] = {}
+        nodes: set[str] = set()
+        for expr in exprs:
+            nodes |= letters(expr)
+            for node in walk(expr):
+                if node.op == "deferred":
+                    records[node.args[0].label] = node.args[0]
+        at_neighbour = nodes == {"j"} and name not in ("claim",) and not name.startswith("given")
+        with unfolded():
+            entries = ca.vertcat(*[as_sx(entry) for expr in exprs for entry in expr.entries])
+            symbols = ca.symvar(entries)
+            function = ca.Function("listing", [ca.vertcat(*symbols)], [ca.densify(entries)])
+        shown = [self._shown(s.name(), records, at_neighbour) for s in symbols]
+        self.listings[name] = self._bound(read(function, shown))
+        for label, record in records.items():
+            self._record(label, record)
+        for scalar in self.listings[name].inputs:
+            self._scalar(star(scalar))
+
+    def _shown(self, scalar: str, records: Mapping[str, Record], at_neighbour: bool) -> str:
+        """The name of a scalar in a listing: anonymous records get short names, and a lone neighbour is the node."""
+        base, node, index = split(scalar)
+        label = base if node is None else f"{base}.{node}"
+        if label in records and not isinstance(records[label], Named):
+            base = self._label(base)
+        if node is None:
+            return f"{base}{index}"
+        return f"{base}.{'i' if at_neighbour and node == 'j' else node}{index}"
+
+    def _label(self, base: str) -> str:
+        if base not in self.labels:
+            kind = base.partition("_")[0]
+            count = 1 + sum(shown.startswith(kind) for shown in self.labels.values())
+            self.labels[base] = f"{kind}{count}"
+        return self.labels[base]
+
+    def _bound(self, tape: Tape) -> Tape:
+        """Named constants and bound parameters become literals."""
+        code = []
+        for step in tape.code:
+            bound = step
+            if step.op == "INPUT" and is_constant_name(step.name):
+                bound = Instruction("CONST", value=Fraction(step.name))
+            elif step.op == "INPUT" and step.name in self.values:
+                bound = Instruction("CONST", value=self.values[step.name])
+            code.append(bound)
+        return _merged(code, tape.outputs)
+
+    # Names
+
+    def _record(self, label: str, record: Record) -> None:
+        if isinstance(record, Undefined):
+            raise UndefinedLetter(f"{record.label} is used and never defined")
+        base, _, node = label.partition(".")
+        shown = base if isinstance(record, Named) else self._label(base)
+        key = f"{shown}.*" if node else shown
+        for k, scalar in enumerate(component_names(key, record.body.shape)):
+            if scalar in self.names:
+                return
+            self.names[scalar] = self._meaning(record, shown, k)
+        before = record.law if isinstance(record, Rate) else None
+        if before is not None:
+            self._law(before)
+        self.add(shown, [record.body])
+        if isinstance(record, Rate):
+            self._reach_motion(shown, set())
+
+    def _meaning(self, record: Record, listing: str, k: int) -> Meaning:
+        if isinstance(record, Rate):
+            return Meaning("rate", (listing, k), record.law)
+        if isinstance(record, Sum):
+            return Meaning("total" if record.total else "sum", (listing, k))
+        return Meaning("value", (listing, k))
+
+    def _scalar(self, name: str) -> None:
+        if name in self.names or name in self.scalars:
+            return
+        base, node, _ = split(name)
+        declared = self.study.symbols.get(base if node is None else f"{base}.*")
+        if declared is None:
+            raise UndefinedLetter(f"{name} is no symbol of the study {self.study.name}")
+        self.scalars[name] = declared.kind
+
+    def _law(self, name: str) -> None:
+        if name in self.laws:
+            return
+        law = self.study.laws[name]
+        target = law.target
+        base = target.args[0].replace(".i", ".*")
+        self.laws[name] = {s: (f"law {name}", k) for k, s in enumerate(component_names(base, target.shape))}
+        self.add(f"law {name}", [law.body()])
+        for scalar in self.laws[name]:
+            self.scalars.setdefault(scalar, "input")
+
+    def _reach_motion(self, listing: str, seen: set[str]) -> None:
+        """The motions of all states that a listing reaches, with what they reach."""
+        if listing in seen:
+            return
+        seen.add(listing)
+        for name in map(star, self.listings[listing].inputs):
+            meaning = self.names.get(name)
+            if meaning is not None and meaning.of is not None:
+                self._reach_motion(meaning.of[0], seen)
+            elif self.scalars.get(name) == "state" and name not in self.motion:
+                self._add_motion(name, seen)
+            elif self.scalars.get(name) == "input":
+                for law in self.laws.values():
+                    if name in law:
+                        self._reach_motion(law[name][0], seen)
+
+    def _add_motion(self, name: str, seen: set[str]) -> None:
+        base, node, _ = split(name)
+        symbol = base if node is None else f"{base}.i"
+        for x, xdot in self.study.motions:
+            if x.args[0] == symbol:
+                listing = f"motion {base}"
+                self.add(listing, [xdot])
+                key = symbol.replace(".i", ".*")
+                for k, scalar in enumerate(component_names(key, x.shape)):
+                    self.motion[scalar] = (listing, k)
+                    self.scalars.setdefault(scalar, "state")
+                self._reach_motion(listing, seen)
+                return
+
+    # Assumptions
+
+    def assume(self, claim: Statement, about: str) -> None:
+        """Enter an assumption: an equation or a bound gives one for each entry."""
+        listing = f"given {len(self.given) + 1}"
+        written = claim.text()
+        if isinstance(claim, Equal):
+            difference = claim.left - claim.right
+            self.add(listing, [difference])
+            self._each("zero", listing, difference, written, about)
+        elif isinstance(claim, Bound):
+            self.add(listing, [claim.expr])
+            self._each("positive" if claim.strict else "nonnegative", listing, claim.expr, written, about)
+        elif isinstance(claim, Nonzero):
+            self.add(listing, [claim.expr])
+            self._each("nonzero", listing, claim.expr, written, about)
+        elif isinstance(claim, Definite):
+            self.add(listing, [claim.matrix])
+            n = claim.matrix.shape[0]
+            of = tuple((listing, k) for k in range(n * n))
+            self.given.append(Assumption(claim.kind, of, written, about, n))
+        else:
+            raise TypeError(f"{written} cannot be assumed: an assumption is an equation, a bound, definiteness or nonzero(x)")
+
+    def _each(self, kind: str, listing: str, expr: Expr, written: str, about: str) -> None:
+        for k in range(expr.shape[0] * expr.shape[1]):
+            self.given.append(Assumption(kind, ((listing, k),), written, about))
+
+    def _assume_what_occurs(self) -> None:
+        """The study's assumptions about symbols that occur; an assumption may bring a bound's own symbol with it."""
+        waiting = list(self.study.assumed)
+        while True:
+            ready = [a for a in waiting if self._occurs(a.claim)]
+            if not ready:
+                return
+            for assumed in ready:
+                waiting.remove(assumed)
+                self.assume(assumed.claim, assumed.about)
+
+    def _occurs(self, claim: Statement) -> bool:
+        """Does the problem hold every state and signal of the assumption, and at least one of its symbols?"""
+        known = {star(n) for n in self.scalars}
+        found = False
+        for expr in _sides(claim)[0]:
+            for node in walk(expr):
+                if node.op != "symbol":
+                    continue
+                name = node.args[0].replace(".i", ".*")
+                declared = self.study.symbols[name]
+                if all(n in self.values for n in declared.values) and declared.values:
+                    continue
+                occurs = bool(known & set(component_names(name, node.shape, node.args[2])))
+                if not occurs and declared.kind in ("state", "signal"):
+                    return False
+                found = found or (occurs and (declared.kind != "parameter" or _only_parameters(claim, self.study)))
+        return found
+
+
+def _only_parameters(claim: Statement, study: Study) -> bool:
+    """Do all symbols of the claim stand for parameters?"""
+    names = [n.args[0].replace(".i", ".*") for e in _sides(claim)[0] for n in walk(e) if n.op == "symbol"]
+    return all(study.symbols[name].kind == "parameter" for name in names)
+
+
+def _sides(claim: Statement) -> tuple[list[Expr], str, tuple[int, int]]:
+    """The expressions of a claim in the order of its listing's outputs, its kind, and the shape of its entries."""
+    if isinstance(claim, Equal):
+        return [claim.left, claim.right], "equal", claim.left.shape
+    if isinstance(claim, Bound):
+        return [claim.expr], claim.kind, claim.expr.shape
+    if isinstance(claim, Definite):
+        return [claim.matrix], claim.kind, claim.matrix.shape
+    expr: Expr = claim.expr  # type: ignore[attr-defined]
+    return [expr], claim.kind, expr.shape
+
+
+def _merged(code: Sequence[Instruction], outputs: Sequence[int]) -> Tape:
+    """The tape with equal instructions merged again."""
+    register: dict[Instruction, int] = {}
+    new: list[Instruction] = []
+    where: list[int] = []
+    for step in code:
+        moved = Instruction(step.op, tuple(where[a] for a in step.args), step.name, step.value)
+        at = register.setdefault(moved, len(new))
+        if at == len(new):
+            new.append(moved)
+        where.append(at)
+    return Tape(tuple(new), tuple(where[r] for r in outputs))
+
+

@@ -1,0 +1,40 @@
+"""Which instance of a study is being decided: the variant of its definitions, its graph, its exact values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import networkx as nx
+
+
+@dataclass(frozen=True)
+class Instance:
+    """variant: "printed" or "corrected". graph: of the fleet, if there is one. values: of parameters, by scalar name."""
+
+    variant: str = "printed"
+    graph: nx.Graph | None = None
+    values: Mapping[str, Fraction] = field(default_factory=dict)
+    reading: tuple[tuple[str, object], ...] = ()
+
+
+_current: ContextVar[Instance] = ContextVar("instance", default=Instance())
+
+
+def current() -> Instance:
+    return _current.get()
+
+
+@contextmanager
+def within(instance: Instance) -> Iterator[None]:
+    """Everything called inside speaks of `instance`."""
+    token = _current.set(instance)
+    try:
+        yield
+    finally:
+        _current.reset(token)

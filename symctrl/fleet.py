@@ -1,0 +1,167 @@
+"""A fleet on any graph: symbols of a generic node i and its neighbour j, sums over neighbours and over nodes.
+
+What is a sum over edges and nodes is written once for a generic node and edge, and holds for every undirected graph.
+Matrices of a graph (Laplacian, adjacency) are those of the instance at hand.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from symctrl.context import current
+from symctrl.expr import Expr, deferred, lift, symbol
+from symctrl.latex import latex
+from symctrl.records import Sum, fingerprint, letters
+
+if TYPE_CHECKING:
+    from symctrl.study import Quaternion, Study
+
+
+@dataclass(frozen=True)
+class Node:
+    """The generic node i, or its generic neighbour j."""
+
+    letter: str
+
+
+@dataclass(frozen=True)
+class FleetSymbol:
+    """A symbol that every node has: `q[i]` is that of node i."""
+
+    name: str
+    shape: tuple[int, int]
+    latex: str | None = None
+    symmetric: bool = False
+
+    def __getitem__(self, node: Node) -> Expr:
+        if not isinstance(node, Node):
+            raise TypeError(f"{self.name}[..] takes a node of the fleet (fleet.node or fleet.neighbour), not {node!r}")
+        tex = None if self.latex is None else rf"{self.latex}_{{{node.letter}}}"
+        return symbol(f"{self.name}.{node.letter}", self.shape, tex, self.symmetric)
+
+
+@dataclass(frozen=True)
+class FleetQuaternion:
+    """The attitude quaternion of every node: `q[i].vector` (3x1) and `q[i].scalar`."""
+
+    vector: FleetSymbol
+    scalar: FleetSymbol
+
+    def __getitem__(self, node: Node) -> Quaternion:
+        from symctrl.study import Quaternion
+
+        return Quaternion(self.vector[node], self.scalar[node])
+
+
+class Fleet:
+    """The fleet of a study. `node` is the generic node i, `neighbour` its generic neighbour j."""
+
+    def __init__(self, study: Study, name: str, default: str) -> None:
+        self.study = study
+        self.name = name
+        self.default = default
+        self.node = Node("i")
+        self.neighbour = Node("j")
+
+    # Symbols
+
+    def state(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> FleetSymbol:
+        return self._symbol(name, (size, 1), "state", unit, tex)
+
+    def input(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> FleetSymbol:
+        return self._symbol(name, (size, 1), "input", unit, tex)
+
+    def parameter(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> FleetSymbol:
+        return self._symbol(name, (size, 1), "parameter", unit, tex)
+
+    def disturbance(
+        self, name: str, size: int = 1, unit: str | None = None, bound: Expr | None = None, tex: str | None = None
+    ) -> FleetSymbol:
+        """A signal; with `bound`, each component lies between -bound and bound at every node."""
+        made = self._symbol(name, (size, 1), "signal", unit, tex)
+        if bound is not None:
+            self.study.bounded(made[self.node], bound)
+        return made
+
+    def inertia(self, name: str, unit: str | None = "kg*m^2") -> FleetSymbol:
+        """A symmetric positive definite 3x3 matrix at every node."""
+        made = self._symbol(name, (3, 3), "parameter", unit, None, symmetric=True)
+        self.study.assume_definite(made[self.node])
+        return made
+
+    def unit_quaternion(self, vector: str, scalar: str) -> FleetQuaternion:
+        """A unit quaternion at every node, vector part first."""
+        pair = FleetQuaternion(
+            self._symbol(vector, (3, 1), "state", "1", None), self._symbol(scalar, (1, 1), "state", "1", None)
+        )
+        self.study.assume_unit(pair[self.node])
+        return pair
+
+    def _symbol(
+        self, name: str, shape: tuple[int, int], kind: str, unit: str | None, tex: str | None, symmetric: bool = False
+    ) -> FleetSymbol:
+        made = FleetSymbol(name, shape, tex, symmetric)
+        self.study.declare(symbol(f"{name}.*", shape, tex, symmetric), kind, unit)
+        return made
+
+    # Equations
+
+    def motion(self, x: FleetSymbol, rate: Any) -> None:
+        """The motion of a state at every node: `rate` takes a node and gives its time derivative."""
+        self.study.motion(x[self.node], rate(self.node))
+
+    def sum(self, over: Node, summand: Any, at: Node | None = None) -> Expr:
+        """The sum over all nodes (over=fleet.node) or over the neighbours of node i (over=fleet.neighbour).
+
+        Raises ValueError for a summand whose nodes do not fit.
+        """
+        body = lift(summand)
+        at_nodes = letters(body)
+        if over.letter == "i":
+            if "j" in at_nodes:
+                raise ValueError("a sum over the nodes i of an expression that speaks of a neighbour j: sum over j first")
+            label, tex, total = f"total_{fingerprint(body)}", rf"\sum_i {_bracketed(body)}", True
+        else:
+            if "i" not in at_nodes and at is not self.node:
+                raise ValueError(
+                    "a sum over neighbours j whose summand does not speak of the node i (a neighbour's own sum has no "
+                    "name here): if it is meant, write fleet.sum(j, .., at=i)"
+                )
+            label, tex, total = f"sum_{fingerprint(body)}.i", rf"\sum_{{j}} {_bracketed(body)}", False
+        return deferred(Sum(label, tex, body, total), body.shape)
+
+    def degree(self, node: Node) -> Expr:
+        """The number of neighbours of node i."""
+        return self.sum(self.neighbour, 1, at=node)
+
+    # The instance's graph
+
+    @property
+    def size(self) -> int:
+        """The number of nodes of the instance at hand."""
+        return len(self._graph())
+
+    def adjacency(self) -> Expr:
+        """The adjacency matrix of the instance's graph, n x n."""
+        return lift(self._rows())
+
+    def laplacian(self) -> Expr:
+        """The Laplacian matrix (degrees minus adjacency) of the instance's graph, n x n."""
+        rows = self._rows()
+        return lift([[sum(row) if r == c else -row[c] for c in range(len(row))] for r, row in enumerate(rows)])
+
+    def _rows(self) -> list[list[int]]:
+        graph = self._graph()
+        nodes = list(graph)
+        return [[int(graph.has_edge(a, b)) for b in nodes] for a in nodes]
+
+    def _graph(self) -> Any:
+        from symctrl.graphs import parse
+
+        return current().graph or parse(self.default)
+
+
+def _bracketed(body: Expr) -> str:
+    written = latex(body)
+    return rf"\left({written}\right)" if body.op in ("add", "sub", "neg") else written
