@@ -1,0 +1,338 @@
+"""Enclosures of every operation of a listing: the kernel's interval meaning of the instructions.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem: an interval extension of each operation gives, by induction over the instructions, an interval
+extension of the listing (Moore, Interval Analysis, 1966). Monotone functions are enclosed by their values at
+the end points, periodic ones with the extremes that may lie between. What jumps is evaluated only where its
+case is decided. An operation that has no value anywhere on its arguments raises Undefined, one that may have
+none Undecided.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+from math import ceil, floor
+
+from symctrl.kernel import elementary
+from symctrl.kernel.certificate import Declined
+from symctrl.kernel.chain import Domain
+from symctrl.kernel.interval import (
+    Interval,
+    Undecided,
+    Undefined,
+    absolute,
+    add,
+    inverse,
+    multiply,
+    negative,
+    outward,
+    point,
+    power,
+    square_root,
+    subtract,
+)
+
+AtPoint = Callable[[Fraction, int], Interval]
+_ONE, _ZERO = point(1), point(0)
+MAX_ROOT = 64
+
+
+class Enclosure(Domain[Interval]):
+    """The domain of intervals whose ends are rounded outward to about `bits` significant bits."""
+
+    def __init__(self, bits: int) -> None:
+        self.bits = bits
+
+    def constant(self, value: Fraction) -> Interval:
+        return point(value)
+
+    def rational(self, a: Interval) -> Fraction | None:
+        return a.lo if a.thin else None
+
+    def nonzero(self, a: Interval) -> None:
+        if a.sign == 0:
+            raise Undefined("zero, where a number that is not zero is needed")
+        if a.sign is None:
+            raise Undecided("what may be zero, where a number that is not zero is needed")
+
+    def add(self, a: Interval, b: Interval) -> Interval:
+        return add(a, b, self.bits)
+
+    def sub(self, a: Interval, b: Interval) -> Interval:
+        return subtract(a, b, self.bits)
+
+    def mul(self, a: Interval, b: Interval) -> Interval:
+        return multiply(a, b, self.bits)
+
+    def neg(self, a: Interval) -> Interval:
+        return negative(a)
+
+    def inv(self, a: Interval) -> Interval:
+        return inverse(a, self.bits)
+
+    def square(self, a: Interval) -> Interval:
+        return power(a, 2, self.bits)
+
+    def power(self, a: Interval, n: int) -> Interval:
+        return power(a, n, self.bits)
+
+    def function(self, op: str, args: Sequence[Interval]) -> Interval:
+        method: Callable[..., Interval] | None = getattr(self, f"{op.lower()}_", None)
+        if method is None:
+            raise Declined(f"the kernel has no enclosure of the operation {op[:40]}")
+        return method(*args)
+
+    def sqrt_(self, a: Interval) -> Interval:
+        return square_root(a, self.bits)
+
+    def fabs_(self, a: Interval) -> Interval:
+        return absolute(a)
+
+    def fmin_(self, a: Interval, b: Interval) -> Interval:
+        return Interval(min(a.lo, b.lo), min(a.hi, b.hi))
+
+    def fmax_(self, a: Interval, b: Interval) -> Interval:
+        return Interval(max(a.lo, b.lo), max(a.hi, b.hi))
+
+    # Powers: x^y = exp(y log x) for x > 0; an integer exponent has a meaning for every base.
+
+    def pow_(self, a: Interval, b: Interval) -> Interval:
+        if b.thin and b.lo.denominator == 1:
+            return power(a, b.lo.numerator, self.bits)
+        if a.hi < 0:
+            raise Undefined("a power of a negative number with an exponent that is not an integer")
+        if a.sign == 0 and b.sign is not None:
+            if b.sign <= 0:
+                raise Undefined("zero to a negative power")
+            return _ZERO
+        if a.lo < 0 or (a.lo == 0 and (not b.thin or b.lo < 0)):
+            raise Undecided("a power of what may be zero or negative")
+        if b.thin:
+            return self._hull(self._rational_power(a.lo, b.lo), self._rational_power(a.hi, b.lo))
+        return self.exp_(self.mul(b, self.log_(a)))
+
+    def _rational_power(self, x: Fraction, exponent: Fraction) -> Interval:
+        """x^(p/q), x >= 0: monotone in x. Exact where x is the q-th power of a rational."""
+        if x == 0:
+            return _ZERO
+        q = exponent.denominator
+        root = _exact_root(x, q)
+        if root is not None:
+            return power(point(root), exponent.numerator, self.bits)
+        return self.exp_(self.mul(point(exponent), self.log_(point(x))))
+
+    # Monotone functions.
+
+    def _rising(self, a: Interval, at: AtPoint) -> Interval:
+        low = at(a.lo, self.bits)
+        high = low if a.thin else at(a.hi, self.bits)
+        return outward(low.lo, high.hi, self.bits)
+
+    def exp_(self, a: Interval) -> Interval:
+        return self._rising(a, elementary.exp_at)
+
+    def log_(self, a: Interval) -> Interval:
+        if a.hi <= 0:
+            raise Undefined("a logarithm of a number that is not positive")
+        if a.lo <= 0:
+            raise Undecided("a logarithm of what may not be positive")
+        return self._rising(a, elementary.log_at)
+
+    def atan_(self, a: Interval) -> Interval:
+        return self._rising(a, elementary.atan_at)
+
+    def sinh_(self, a: Interval) -> Interval:
+        """(e^x - e^-x)/2 rises: at each end by itself."""
+        return self._rising(a, self._sinh_at)
+
+    def _sinh_at(self, x: Fraction, bits: int) -> Interval:
+        e = elementary.exp_at(x, bits)
+        return multiply(point(Fraction(1, 2)), subtract(e, inverse(e, bits), bits), bits)
+
+    def cosh_(self, a: Interval) -> Interval:
+        """(e^x + e^-x)/2 rises with |x|."""
+        return self._rising(absolute(a), self._cosh_at)
+
+    def _cosh_at(self, x: Fraction, bits: int) -> Interval:
+        e = elementary.exp_at(x, bits)
+        return multiply(point(Fraction(1, 2)), add(e, inverse(e, bits), bits), bits)
+
+    def tanh_(self, a: Interval) -> Interval:
+        """1 - 2/(e^2x + 1) rises."""
+        return self._rising(a, self._tanh_at)
+
+    def _tanh_at(self, x: Fraction, bits: int) -> Interval:
+        part = inverse(add(elementary.exp_at(2 * x, bits), _ONE, bits), bits)
+        return subtract(_ONE, multiply(point(2), part, bits), bits)
+
+    def asinh_(self, a: Interval) -> Interval:
+        """log(x + root(x^2 + 1)) rises, and is odd."""
+        return self._rising(a, self._asinh_at)
+
+    def _asinh_at(self, x: Fraction, bits: int) -> Interval:
+        if x < 0:
+            return negative(self._asinh_at(-x, bits))
+        return self.log_(self.add(point(x), self.sqrt_(point(x * x + 1))))
+
+    def acosh_(self, a: Interval) -> Interval:
+        """log(x + root(x^2 - 1)) rises for x >= 1."""
+        if a.hi < 1:
+            raise Undefined("an inverse hyperbolic cosine of a number below one")
+        if a.lo < 1:
+            raise Undecided("an inverse hyperbolic cosine of what may be below one")
+        return self._rising(a, lambda x, _: self.log_(self.add(point(x), self.sqrt_(point(x * x - 1)))))
+
+    def atanh_(self, a: Interval) -> Interval:
+        """log((1 + x)/(1 - x))/2 rises for |x| < 1."""
+        if a.lo >= 1 or a.hi <= -1:
+            raise Undefined("an inverse hyperbolic tangent outside (-1, 1)")
+        if a.magnitude >= 1:
+            raise Undecided("an inverse hyperbolic tangent of what may be outside (-1, 1)")
+        half = point(Fraction(1, 2))
+        return self._rising(a, lambda x, _: self.mul(half, self.log_(point((1 + x) / (1 - x)))))
+
+    def asin_(self, a: Interval) -> Interval:
+        """atan(x/root(1 - x^2)) rises for |x| < 1; +-pi/2 at the ends."""
+        if a.lo > 1 or a.hi < -1:
+            raise Undefined("an arc sine of a number outside [-1, 1]")
+        if a.magnitude > 1:
+            raise Undecided("an arc sine of what may be outside [-1, 1]")
+        return self._rising(a, self._asin_at)
+
+    def _asin_at(self, x: Fraction, bits: int) -> Interval:
+        if abs(x) == 1:
+            return multiply(point(x / 2), elementary.pi(bits), bits)
+        return self.atan_(self._ratio(point(x), self.sqrt_(point(1 - x * x))))
+
+    def acos_(self, a: Interval) -> Interval:
+        """pi/2 - asin(x)."""
+        if a.thin and a.lo == 1:
+            return _ZERO
+        return self.sub(self._half_pi(), self.asin_(a))
+
+    def atan2_(self, y: Interval, x: Interval) -> Interval:
+        """The angle of (x, y) in (-pi, pi], by the half plane in which the point lies for certain."""
+        if x.lo > 0:
+            return self.atan_(self._ratio(y, x))
+        if y.lo > 0:
+            return self.sub(self._half_pi(), self.atan_(self._ratio(x, y)))
+        if y.hi < 0:
+            return negative(self.add(self._half_pi(), self.atan_(self._ratio(x, y))))
+        if y.sign == 0 and x.sign == -1:
+            return elementary.pi(self.bits)
+        if y.sign == 0 and x.sign == 0:
+            raise Undefined("the angle of the origin")
+        raise Undecided("an angle near the negative axis or the origin")
+
+    # Periodic functions.
+
+    def sin_(self, a: Interval) -> Interval:
+        """Extremes (-1)^k at pi/2 + k pi."""
+        return self._wave(a, elementary.sin_at, Fraction(1, 2))
+
+    def cos_(self, a: Interval) -> Interval:
+        """Extremes (-1)^k at k pi."""
+        return self._wave(a, elementary.cos_at, Fraction(0))
+
+    def _wave(self, a: Interval, at: AtPoint, first: Fraction) -> Interval:
+        """The hull of the values at the ends and of all extremes that may lie between."""
+        low = at(a.lo, self.bits)
+        if a.thin:
+            return outward(low.lo, low.hi, self.bits)
+        if a.hi - a.lo > 7:
+            return Interval(Fraction(-1), Fraction(1))
+        high = at(a.hi, self.bits)
+        turns = self.sub(self._ratio(a, elementary.pi(self.bits)), point(first))
+        extremes = [point((-1) ** (k % 2)) for k in range(ceil(turns.lo), floor(turns.hi) + 1)]
+        return self._hull(low, high, *extremes)
+
+    # What jumps.
+
+    def sign_(self, a: Interval) -> Interval:
+        if a.sign is None:
+            raise Undecided("the sign of what may be zero")
+        return point(a.sign)
+
+    def floor_(self, a: Interval) -> Interval:
+        return _same(floor(a.lo), floor(a.hi))
+
+    def ceil_(self, a: Interval) -> Interval:
+        return _same(ceil(a.lo), ceil(a.hi))
+
+    def lt_(self, a: Interval, b: Interval) -> Interval:
+        return _truth(True if a.hi < b.lo else False if a.lo >= b.hi else None)
+
+    def le_(self, a: Interval, b: Interval) -> Interval:
+        return _truth(True if a.hi <= b.lo else False if a.lo > b.hi else None)
+
+    def eq_(self, a: Interval, b: Interval) -> Interval:
+        return _truth(_equal(a, b))
+
+    def ne_(self, a: Interval, b: Interval) -> Interval:
+        equal = _equal(a, b)
+        return _truth(None if equal is None else not equal)
+
+    def not_(self, a: Interval) -> Interval:
+        return _truth(not _holds(a))
+
+    def and_(self, a: Interval, b: Interval) -> Interval:
+        return _truth(_holds(a) and _holds(b))
+
+    def or_(self, a: Interval, b: Interval) -> Interval:
+        return _truth(_holds(a) or _holds(b))
+
+    def if_else_zero_(self, condition: Interval, a: Interval) -> Interval:
+        return a if _holds(condition) else _ZERO
+
+    def _hull(self, *parts: Interval) -> Interval:
+        return outward(min(part.lo for part in parts), max(part.hi for part in parts), self.bits)
+
+    def _ratio(self, a: Interval, b: Interval) -> Interval:
+        return multiply(a, inverse(b, self.bits), self.bits)
+
+    def _half_pi(self) -> Interval:
+        return multiply(point(Fraction(1, 2)), elementary.pi(self.bits), self.bits)
+
+
+def _exact_root(x: Fraction, q: int) -> Fraction | None:
+    """The q-th root of x > 0 where it is rational: then both parts of the fraction are q-th powers."""
+    if q > MAX_ROOT:
+        return None
+    top, bottom = _integer_root(x.numerator, q), _integer_root(x.denominator, q)
+    return Fraction(top, bottom) if top**q == x.numerator and bottom**q == x.denominator else None
+
+
+def _integer_root(n: int, q: int) -> int:
+    """The integer part of the q-th root of n >= 1, by bisection."""
+    low, high = 1, 1 << (n.bit_length() // q + 1)
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (middle, high) if middle**q <= n else (low, middle)
+    return low
+
+
+def _same(low: int, high: int) -> Interval:
+    if low != high:
+        raise Undecided("a step of what may lie on either side of it")
+    return point(low)
+
+
+def _equal(a: Interval, b: Interval) -> bool | None:
+    if a.hi < b.lo or b.hi < a.lo:
+        return False
+    return True if a.thin and b.thin else None
+
+
+def _truth(value: bool | None) -> Interval:
+    if value is None:
+        raise Undecided("a comparison of numbers that may be equal")
+    return _ONE if value else _ZERO
+
+
+def _holds(a: Interval) -> bool:
+    """A condition holds where it is not zero."""
+    if a.sign is None:
+        raise Undecided("a condition that may be zero")
+    return a.sign != 0
