@@ -94,9 +94,9 @@ class Place:
         except (Exception, SystemExit) as error:
             frames = traceback.extract_tb(error.__traceback__)
             authors = [frame for frame in frames if self._owns(frame.filename)]
-            if not authors and not isinstance(error, SyntaxError | ImportError):
+            if not authors and not isinstance(error, SyntaxError):
                 raise _asked_in_vain(self.name, error) from None
-            raise StudyFailedError(_shortened(error, authors, frames[-1])) from None
+            raise StudyFailedError(f"{self.origin}: {_shortened(error, authors, frames[-1])}") from None
 
     def _owns(self, filename: str) -> bool:
         path = Path(filename)

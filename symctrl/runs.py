@@ -30,8 +30,8 @@ def decide(
     jobs: int,
     fresh: bool,
     watch: Callable[[str], AbstractContextManager[Progress]],
-) -> Iterator[Report]:
-    """One report for each request, in order. All studies are built before the first claim is decided.
+) -> Iterator[tuple[Study, Report]]:
+    """Each requested study with its report, in order. All studies are built before the first claim is decided.
 
     claims: ids, each of which one study at least must have; None for all. fresh: verdicts of earlier runs are
     not used. watch: given a study's name, the context in which its claims are reported to a progress display.
@@ -41,7 +41,7 @@ def decide(
     _refuse_same_names(studies)
     wanted = _wanted(studies, claims)
     run = _Run(Store(folder(), run=uuid.uuid4().hex if fresh else ""), jobs, watch)
-    return map(run.decide, requests, studies, wanted)
+    return zip(studies, map(run.decide, requests, studies, wanted), strict=True)
 
 
 def write_certificates(report: Report, target: Path) -> None:

@@ -23,11 +23,16 @@ _REASON_BESIDE = 36  # columns that a reason needs to stand beside its row and n
 _LONGEST_REASON = 160
 
 
-def show(report: Report, console: Console, *, tree: bool = False, strict: bool = False) -> None:
-    """Print the table, or the tree, of `report`, and a summary; where that is no terminal, one line a row."""
+def show(
+    report: Report, console: Console, *, numbered: int = 0, tree: bool = False, strict: bool = False
+) -> None:
+    """Print the table, or the tree, of `report`, and a summary; where that is no terminal, one line a row.
+
+    numbered: how many items the paper numbers, where the study says so.
+    """
     width = console.width if console.is_terminal else None
     lines = _tree(report) if tree else _table(report.rows, width)
-    for line in (*lines, *_summary(report, strict), Text()):
+    for line in (*lines, *_summary(report, numbered, strict), Text()):
         console.print(line, soft_wrap=True)
 
 
@@ -71,12 +76,15 @@ def _stands(row: Row) -> str:
 
 
 def _in_few_words(row: Row) -> str:
-    """Nothing where all is well; else the reason, and first the condition about the trajectory."""
-    if row.verdict == "proved" and row.stands and not row.conditional:
-        return ""
-    conditions = [given.text for given in row.given if given.about == "trajectory"] if row.conditional else []
-    text = " ".join([*(f"if {condition}:" for condition in conditions), row.reason])
-    return textwrap.shorten(text, _LONGEST_REASON, placeholder=" …")
+    """Nothing where all is well; else the condition about the trajectory, the reason, what is odd beside it."""
+    said = [f"if {given.text}" for given in row.given if row.conditional and given.about == "trajectory"]
+    if row.verdict != "proved" or not row.stands:
+        said.append(textwrap.shorten(row.reason, _LONGEST_REASON, placeholder=" …"))
+    if row.units is not None and row.units.mismatch:
+        said.append(f"units: {row.units.mismatch}")
+    if row.twins is not None and row.twins.still_true:
+        said.append(f"twins that hold too: {', '.join(row.twins.still_true)}")
+    return " ".join("; ".join(said).split())
 
 
 def _line(texts: Sequence[str], widths: Sequence[int]) -> str:
@@ -118,7 +126,7 @@ def _branch(name: str, rows: dict[str, Row], shown: set[str], depth: int) -> Ite
             yield from _branch(below, rows, shown, depth + 1)
 
 
-def _summary(report: Report, strict: bool) -> Iterator[Text]:
+def _summary(report: Report, numbered: int, strict: bool) -> Iterator[Text]:
     count = Counter(row.verdict for row in report.rows)
     verdicts = ", ".join(f"{count[verdict]} {verdict}" for verdict in MARKS if count[verdict]) or "no claims"
     stand = sum(row.stands for row in report.rows)
@@ -127,8 +135,10 @@ def _summary(report: Report, strict: bool) -> Iterator[Text]:
     graph = f" on {report.graph}" if report.graph else ""
     head = f"{report.study}{graph}: {verdicts}; {stand} of {len(report.rows)} stand{under}"
     yield Text(head, style="bold")
-    if report.missing:
-        yield Text(f"not entered of what the paper numbers: {', '.join(report.missing)}")
+    if numbered:
+        missing = f"; missing: {', '.join(report.missing)}" if report.missing else ""
+        entered = numbered - len(report.missing)
+        yield Text(f"of {numbered} numbered items of the paper {entered} are entered{missing}")
     open_ = [row.id for row in report.rows if not settled(row, strict)]
     if open_:
         yield Text(f"not settled: {', '.join(open_)}", style="bold yellow")
