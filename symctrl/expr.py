@@ -18,7 +18,9 @@ import numpy as np
 
 from symctrl.entries import Entries, Shape, component_names, entries_of
 from symctrl.graph import exact_literal, unfolded
+from symctrl.indexing import selection
 from symctrl.literals import as_sx
+from symctrl.nonconforming import Nonconforming, mismatch, short_text, size
 
 if TYPE_CHECKING:
     from symctrl.statements import Bound
@@ -26,10 +28,6 @@ if TYPE_CHECKING:
 Liftable = Union["Expr", int, Fraction, str, float, list[Any], tuple[Any, ...], "np.ndarray[Any, Any]"]
 Relation = Literal[">=", "<=", ">", "<"]
 SCALAR: Shape = (1, 1)
-
-
-class Nonconforming(ValueError):  # noqa: N818, an author reads it as a word
-    """Shapes that do not go together; the message has both shapes and both texts."""
 
 
 @runtime_checkable
@@ -87,8 +85,9 @@ class Expr:
     def __add__(self, other: Liftable) -> Expr:
         return _sum("add", self, other)
 
-    def __radd__(self, other: Liftable) -> Expr:
-        return _sum("add", other, self)
+    def __radd__(self, other: Any) -> Expr:
+        # Python's sum() begins with the integer 0, which is no addend of the author's
+        return self if type(other) is int and other == 0 else _sum("add", other, self)
 
     def __sub__(self, other: Liftable) -> Expr:
         return _sum("sub", self, other)
@@ -105,7 +104,7 @@ class Expr:
     def __mul__(self, other: Liftable) -> Expr:
         return _scaled(self, other)
 
-    def __rmul__(self, other: Liftable) -> Expr:
+    def __rmul__(self, other: Any) -> Expr:
         return _scaled(other, self)
 
     def __matmul__(self, other: Liftable) -> Expr:
@@ -127,7 +126,7 @@ class Expr:
         return _raised(other, self)
 
     def __getitem__(self, key: Any) -> Expr:
-        rows, cols = _selection(self, key)
+        rows, cols = selection(self.shape, key)
         return Expr("index", (self, rows, cols), (len(rows), len(cols)))
 
     def __iter__(self) -> Iterator[Expr]:
@@ -136,7 +135,7 @@ class Expr:
     def __len__(self) -> int:
         if 1 not in self.shape:
             raise TypeError(
-                f"a {_size(self)} matrix has no length and no order of entries; index it as M[r, c] or M[r, :]"
+                f"a {size(self)} matrix has no length and no order of entries; write M[r, c] or M[r, :]"
             )
         return max(self.shape)
 
@@ -153,12 +152,10 @@ class Expr:
         return _bound(self, "<", other)
 
     def __eq__(self, other: object) -> NoReturn:
-        raise TypeError(
-            "expressions are not compared with ==: write equal(a, b) for the claim that they are equal"
-        )
+        raise TypeError("expressions are not compared with ==: write equal(a, b) for the claim")
 
     def __ne__(self, other: object) -> NoReturn:
-        raise TypeError("expressions are not compared with !=: write nonzero(a - b) for the condition")
+        raise TypeError("expressions are not compared with !=: write nonzero(a - b)")
 
     __hash__ = object.__hash__
 
@@ -173,15 +170,15 @@ class Expr:
 
     def __abs__(self) -> NoReturn:
         raise TypeError(
-            "abs() has several readings: write absolute(v) for each component, norm(v, 1) for the sum of absolute "
-            "values or norm(v) for the Euclidean length"
+            "abs() has several readings: write absolute(v) for each component, norm(v, 1) for the sum of these, "
+            "or norm(v) for the Euclidean length"
         )
 
-    def __float__(self) -> NoReturn:
-        raise TypeError("an expression is no number; its exact value, if it has one, is x.value")
+    def __array__(self, *args: Any, **kwargs: Any) -> NoReturn:
+        raise TypeError("an expression does not go into a numpy array; use stack, row or block")
 
     def __repr__(self) -> str:
-        return f"<Expr {_size(self)}: {short_text(self)}>"
+        return f"<Expr {size(self)}: {short_text(self)}>"
 
 
 def lift(x: Liftable) -> Expr:
@@ -212,8 +209,8 @@ def lift(x: Liftable) -> Expr:
     if isinstance(x, (list, tuple)):
         return _lift_rows(x)
     raise TypeError(
-        f'a {type(x).__name__} is no expression; use an Expr, a number, a string like "1/3", a list of these, '
-        "or study.wrap(sx) for CasADi"
+        f'a {type(x).__name__} is no expression; give an Expr, a number, a string like "1/3" or a list '
+        "of these, and take CasADi in by foreign(sx, text)"
     )
 
 
@@ -272,7 +269,7 @@ def walk(expr: Expr, skip: Callable[[Expr], bool] = lambda node: False) -> Itera
 
 
 def terms(expr: Expr) -> tuple[Expr, ...]:
-    """The addends as written, each with its sign: sums, differences and minus signs are opened, nothing else."""
+    """The addends as written, each with its sign: sums, differences and minus signs are opened only."""
     result: list[Expr] = []
     stack = [(expr, False)]
     while stack:
@@ -292,26 +289,6 @@ def scalars(expr: Expr) -> list[str]:
     return list(dict.fromkeys(s.name() for s in ca.symvar(expr.sx)))
 
 
-def short_text(expr: Expr, limit: int = 120) -> str:
-    """The expression in plain mathematics, cut in its middle where it is long."""
-    from symctrl.text import text  # the printer knows Expr, so it is loaded when a message needs it
-
-    full = text(expr)
-    return full if len(full) <= limit else f"{full[: limit // 2]} ... {full[-limit // 3 :]}"
-
-
-def mismatch(what: str, left: Expr, right: Expr, hint: str = "") -> Nonconforming:
-    """The error for two arguments whose shapes do not go together."""
-    return Nonconforming(
-        f"{what}: left is {_size(left)}, right is {_size(right)}: ({short_text(left)}) and ({short_text(right)})"
-        + (f"; {hint}" if hint else "")
-    )
-
-
-def _size(x: Expr) -> str:
-    return f"{x.shape[0]}x{x.shape[1]}"
-
-
 def _checked(shape: Shape) -> Shape:
     rows, cols = shape
     if rows < 1 or cols < 1:
@@ -329,10 +306,19 @@ def _number(text: str) -> Fraction:
 
 
 def _lift_rows(rows: list[Any] | tuple[Any, ...]) -> Expr:
+    nested = [isinstance(row, (list, tuple, np.ndarray)) for row in rows]
     if not rows:
         raise TypeError("an empty list is no expression")
-    if not any(isinstance(row, (list, tuple, np.ndarray)) for row in rows):
+    if not any(nested):
         return joined("stack", [lift(row) for row in rows])
+    if not all(nested):
+        raise TypeError(
+            "a list of rows and of entries at once; [a, b] is a column, [[a, b], [c, d]] a matrix"
+        )
+    if any(isinstance(x, (list, tuple, np.ndarray)) for row in rows for x in row):
+        raise TypeError(
+            "lists are nested three deep; a matrix is a list of rows, and stack or block joins matrices"
+        )
     return joined("stack", [joined("row", [lift(x) for x in row]) for row in rows])
 
 
@@ -387,41 +373,12 @@ def _raised(left: Liftable, right: Liftable) -> Expr:
 
 
 def _bound(left: Expr, relation: Relation, right: Liftable) -> Bound:
-    from symctrl.statements import compare  # statements are made of expressions, so they load after them
+    from symctrl.statements import compare  # noqa: PLC0415, statements are made of expressions and load after
 
     return compare(left, relation, lift(right))
 
 
-def _selection(x: Expr, key: Any) -> tuple[tuple[int, ...], tuple[int, ...]]:
-    """The rows and columns that an index names."""
-    rows, cols = x.shape
-    if isinstance(key, tuple):
-        if len(key) != 2:
-            raise IndexError(f"index {key}: a matrix has two indices, M[r, c]")
-        return _positions(x, key[0], rows), _positions(x, key[1], cols)
-    if cols == 1:
-        return _positions(x, key, rows), (0,)
-    if rows == 1:
-        return (0,), _positions(x, key, cols)
-    raise TypeError(f"one index into a {_size(x)} matrix; write M[r, c], or M[r, :] for a row")
-
-
-def _positions(x: Expr, key: Any, size: int) -> tuple[int, ...]:
-    if isinstance(key, slice):
-        chosen = tuple(range(size)[key])
-        if not chosen:
-            raise IndexError(f"the slice {key.start}:{key.stop} of a {_size(x)} expression selects nothing")
-        return chosen
-    if isinstance(key, (bool, Expr)) or not isinstance(key, (int, np.integer)):
-        raise TypeError(f"an index is an integer or a slice, not a {type(key).__name__}")
-    if not -size <= key < size:
-        raise IndexError(
-            f"index {key} of ({short_text(x)}), which is {_size(x)}; indices count from 0 to {size - 1}"
-        )
-    return (int(key) % size,)
-
-
 __all__ = [
-    "Expr", "Liftable", "Nonconforming", "Record", "Shape", "component_names", "deferred", "foreign",
-    "joined", "lift", "mismatch", "scalars", "short_text", "symbol", "terms", "walk",
+    "SCALAR", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape", "component_names", "deferred",
+    "foreign", "joined", "lift", "mismatch", "scalars", "short_text", "symbol", "terms", "walk",
 ]  # fmt: skip

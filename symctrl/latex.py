@@ -15,48 +15,9 @@ from typing import Any
 from symctrl.expr import Expr
 from symctrl.printing import ATOM, LOOSE, POWER, PRODUCT, SUM, Notation, Piece, elided, render
 
-_GREEK = frozenset(
-    [
-        "alpha",
-        "beta",
-        "gamma",
-        "delta",
-        "epsilon",
-        "varepsilon",
-        "zeta",
-        "eta",
-        "theta",
-        "vartheta",
-        "iota",
-        "kappa",
-        "lambda",
-        "mu",
-        "nu",
-        "xi",
-        "pi",
-        "rho",
-        "varrho",
-        "sigma",
-        "tau",
-        "upsilon",
-        "phi",
-        "varphi",
-        "chi",
-        "psi",
-        "omega",
-        "Gamma",
-        "Delta",
-        "Theta",
-        "Lambda",
-        "Xi",
-        "Pi",
-        "Sigma",
-        "Upsilon",
-        "Phi",
-        "Psi",
-        "Omega",
-        "ell",
-    ]
+_GREEK = re.compile(
+    "alpha|beta|gamma|delta|(var)?epsilon|zeta|eta|(var)?theta|iota|kappa|lambda|mu|nu|xi|pi|(var)?rho|sigma|tau|upsilon|"
+    "(var)?phi|chi|psi|omega|ell|Gamma|Delta|Theta|Lambda|Xi|Pi|Sigma|Upsilon|Phi|Psi|Omega"
 )
 _ACCENTS = {
     "bar": r"\bar",
@@ -68,8 +29,7 @@ _ACCENTS = {
     "vec": r"\vec",
 }
 _COMMANDS = {
-    name: rf"\{name}" for name in ["sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "det"]
-} | {
+    **{name: rf"\{name}" for name in ("sin", "cos", "tan", "exp", "log", "sinh", "cosh", "tanh", "det")},
     "asin": r"\arcsin",
     "acos": r"\arccos",
     "atan": r"\arctan",
@@ -105,7 +65,7 @@ def name_latex(name: str) -> str:
 
 
 def _word(word: str) -> str:
-    if word in _GREEK:
+    if _GREEK.fullmatch(word):
         return rf"\{word}"
     return word if len(word) == 1 or word.isdigit() else rf"\mathrm{{{word}}}"
 

@@ -34,7 +34,7 @@ def is_constant_name(name: str) -> bool:
 
 @lru_cache(maxsize=4096)
 def constant(value: Fraction) -> ca.SX:
-    """A rational number in a graph: a CasADi constant if that reads back exactly, else a symbol named by it."""
+    """A number in a graph: a CasADi constant if that reads back exactly, else a symbol named by it."""
     try:
         if exact_literal(float(value)) == value:
             return ca.SX(float(value))

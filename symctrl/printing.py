@@ -70,7 +70,7 @@ class Notation:
         raise NotImplementedError
 
     def tight(self, x: Piece, level: int) -> str:
-        """The text of x where something that binds as tightly as `level` is needed and a minus sign is not."""
+        """The text of x where something that binds as tightly as `level` and has no minus sign is needed."""
         return self.bracketed(x.text) if x.level < level or x.negative else x.text
 
     def first(self, x: Piece, level: int) -> str:
@@ -92,7 +92,7 @@ def render(expr: Expr, notation: Notation) -> str:
 
 
 def matrix_rows(expr: Expr) -> list[list[Expr]]:
-    """The parts of a stack or row as the lines of a matrix; parts that form no grid stay whole, one a line."""
+    """The parts of a stack or row as the lines of a matrix; parts that form no grid stay whole."""
     if expr.op == "row":
         return [list(expr.args)]
     lines = [list(part.args) if part.op == "row" else [part] for part in expr.args]

@@ -10,8 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NoReturn
 
-from symctrl.expr import SCALAR, Expr, Liftable, Nonconforming, Relation, lift, mismatch, short_text
+from symctrl.expr import SCALAR, Expr, Liftable, Relation, lift
 from symctrl.latex import latex
+from symctrl.nonconforming import misfit, mismatch
 from symctrl.text import text
 
 _LATEX_SIGN: dict[str, str] = {">=": r"\ge", "<=": r"\le", ">": ">", "<": "<"}
@@ -32,8 +33,8 @@ class Statement:
 
     def __bool__(self) -> NoReturn:
         raise TypeError(
-            f"the claim {self.text()} has no truth value; write two conditions instead of a chain a <= x <= b, "
-            "and a list of conditions instead of 'and'"
+            f"the claim {self.text()} has no truth value; write two conditions instead of a chain "
+            "a <= x <= b, and a list of conditions instead of 'and'"
         )
 
     def __repr__(self) -> str:
@@ -238,10 +239,8 @@ def nonzero(x: Liftable) -> Nonzero:
     """
     value = _lifted(x, "nonzero")
     if value.shape != SCALAR:
-        raise Nonconforming(
-            f"nonzero: needs a scalar, given {value.shape[0]}x{value.shape[1]}: ({short_text(value)}); write "
-            "nonzero(norm(v)) for a vector that is not the zero vector, or one condition for each component"
-        )
+        hint = "write nonzero(norm(v)), or one condition for each component"
+        raise misfit("nonzero", "a scalar", value, hint)
     return Nonzero(value)
 
 
@@ -315,8 +314,7 @@ def _lifted(x: Liftable, what: str) -> Expr:
 def _square(M: Liftable, what: str) -> Expr:
     matrix = _lifted(M, what)
     if matrix.shape[0] != matrix.shape[1]:
-        rows, columns = matrix.shape
-        raise Nonconforming(f"{what}: needs a square matrix, given {rows}x{columns}: ({short_text(matrix)})")
+        raise misfit(what, "a square matrix", matrix)
     return matrix
 
 

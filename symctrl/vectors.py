@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from symctrl.expr import SCALAR, Expr, Liftable, Nonconforming, joined, lift, mismatch, short_text
+from symctrl.expr import SCALAR, Expr, Liftable, joined, lift
+from symctrl.nonconforming import misfit, mismatch
 
 
 def stack(*rows: Liftable) -> Expr:
@@ -69,7 +70,7 @@ def transpose(M: Liftable) -> Expr:
 
 
 def inverse(M: Liftable) -> Expr:
-    """The inverse of an n x n matrix: its adjugate over its determinant, which stays visible as the divisor."""
+    """The inverse of an n x n matrix: its adjugate over its determinant, which stays visible."""
     matrix = _square(M, "inverse")
     return Expr("inverse", (matrix,), matrix.shape)
 
@@ -235,25 +236,19 @@ def _size(rows: int, columns: int) -> tuple[int, int]:
 def _vector(v: Liftable, what: str) -> Expr:
     value = lift(v)
     if 1 not in value.shape:
-        raise _misfit(value, what, "a vector")
+        raise misfit(what, "a vector", value)
     return value
 
 
 def _vector3(v: Liftable, what: str) -> Expr:
     value = lift(v)
     if value.shape != (3, 1):
-        raise _misfit(value, what, "a 3x1 vector")
+        raise misfit(what, "a 3x1 vector", value)
     return value
 
 
 def _square(M: Liftable, what: str) -> Expr:
     value = lift(M)
     if value.shape[0] != value.shape[1]:
-        raise _misfit(value, what, "a square matrix")
+        raise misfit(what, "a square matrix", value)
     return value
-
-
-def _misfit(value: Expr, what: str, needed: str) -> Nonconforming:
-    return Nonconforming(
-        f"{what}: needs {needed}, given {value.shape[0]}x{value.shape[1]}: ({short_text(value)})"
-    )

@@ -1,0 +1,40 @@
+"""The one error of the author's language: shapes that do not go together."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from symctrl.expr import Expr
+
+
+class Nonconforming(ValueError):  # noqa: N818, an author reads it as a word
+    """Shapes that do not go together; the message has the shapes and the texts."""
+
+
+def mismatch(what: str, left: Expr, right: Expr, hint: str = "") -> Nonconforming:
+    """The error for two arguments whose shapes do not go together."""
+    return Nonconforming(
+        f"{what}: left is {size(left)}, right is {size(right)}: "
+        f"({short_text(left)}) and ({short_text(right)})" + (f"; {hint}" if hint else "")
+    )
+
+
+def misfit(what: str, needed: str, given: Expr, hint: str = "") -> Nonconforming:
+    """The error for one argument of a wrong shape."""
+    return Nonconforming(
+        f"{what}: needs {needed}, given {size(given)}: ({short_text(given)})" + (f"; {hint}" if hint else "")
+    )
+
+
+def size(x: Expr) -> str:
+    """The shape in words: `3x1`."""
+    return f"{x.shape[0]}x{x.shape[1]}"
+
+
+def short_text(expr: Expr, limit: int = 120) -> str:
+    """The expression in plain mathematics, cut in its middle where it is long."""
+    from symctrl.text import text  # noqa: PLC0415, the printer knows Expr and loads after it
+
+    full = text(expr)
+    return full if len(full) <= limit else f"{full[: limit // 2]} ... {full[-limit // 3 :]}"
