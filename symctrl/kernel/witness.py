@@ -1,0 +1,216 @@
+"""A witness: exact values at which a claim is false.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem: a claim "for all values that satisfy the assumptions, .." is false where one choice of values
+satisfies them and contradicts the rest. Numbers are enclosed by intervals (`enclosure`), with more bits
+until the comparison is decided; equality is only ever shown by exact rationals. A claim about fleets is
+one about every graph, so that one graph is enough. A matrix A is not positive semidefinite where x'Ax <
+0, and not definite where x'Ax <= 0, x != 0.
+
+Proof fields: `values` {symbol at its node: number} for exactly the free symbols; for fleets `graph`, the
+edges of a connected graph, and `node` where the claim speaks of node i; then `at`, the position of the
+entry that fails (from 0), or `x`, the vector, for definiteness. Where a Kronecker product A (x) I_n is
+claimed, x has n entries for each row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from symctrl.kernel.certificate import (
+    Assumption,
+    Declined,
+    Invalid,
+    Statement,
+    at_node,
+    fields,
+    natural,
+    per_node,
+    rational,
+    typed,
+)
+from symctrl.kernel.enclosure import Enclosure
+from symctrl.kernel.evaluation import Evaluation, GraphSums, NoSums
+from symctrl.kernel.graphs import read_graph
+from symctrl.kernel.interval import Interval, Undecided, point
+from symctrl.kernel.matrices import eliminate
+
+BITS = (64, 256, 1024)
+Graph = Mapping[str, Sequence[str]]
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """Where the statement is evaluated; `node` is what the letter i of the claim stands for, if any."""
+
+    values: Mapping[str, Fraction]
+    graph: Graph
+    node: str
+    fails: Callable[[Sequence[Interval]], bool]
+
+
+def verify(statement: Statement, proof: dict[str, Any]) -> None:
+    """Returns if the witness shows the claim false. Raises Invalid if it does not, Declined if undecided."""
+    place = _read(statement, proof)
+    reason = ""
+    for bits in BITS:
+        try:
+            _refute(statement, place, bits)
+            return
+        except Undecided as undecided:
+            reason = str(undecided)
+    raise Declined(f"the witness is not decided with {BITS[-1]} bits: {reason}")
+
+
+def _refute(statement: Statement, place: Point, bits: int) -> None:
+    walk: Evaluation[Interval] = Evaluation(
+        statement,
+        Enclosure(bits),
+        lambda name: point(place.values[name]),
+        GraphSums(place.graph) if place.graph else NoSums(),
+    )
+    for k, assumption in enumerate(statement.given):
+        for binding in _bindings(statement, assumption, place.graph):
+            entries = [walk.output(ref, binding) for ref in assumption.of]
+            if not _holds(assumption, entries):
+                raise Invalid(f"the values do not satisfy assumption {k + 1}, {assumption.text[:80]!r}")
+    outputs = walk.outputs(statement.claim.listing, {"i": place.node} if place.node else {})
+    if not place.fails(outputs):
+        raise Invalid("the claim holds at the values of the witness")
+
+
+def _bindings(statement: Statement, assumption: Assumption, graph: Graph) -> Iterator[dict[str, str]]:
+    """Every node where the assumption speaks of one."""
+    if any(statement.listings[name].letters for name, _ in assumption.of):
+        yield from ({"i": node} for node in graph)
+    else:
+        yield {}
+
+
+def _holds(assumption: Assumption, entries: Sequence[Interval]) -> bool:
+    """Does the assumption hold at the enclosed values? Raises Undecided where that is open."""
+    if assumption.kind.startswith("positive_"):
+        return _is_definite(entries, assumption.size, assumption.kind == "positive_definite")
+    a = entries[0]
+    if assumption.kind == "nonnegative" and (a.lo >= 0 or a.hi < 0):
+        return a.lo >= 0
+    if a.sign is None:
+        raise Undecided(f"whether {assumption.text[:80]!r} holds")
+    return {"zero": a.sign == 0, "nonzero": a.sign != 0, "positive": a.sign > 0}[assumption.kind]
+
+
+def _is_definite(entries: Sequence[Interval], n: int, strict: bool) -> bool:
+    if not all(entry.thin for entry in entries):
+        raise Undecided("the definiteness of an assumed matrix whose entries are not rational")
+    found = eliminate([[entries[i + n * j].lo for j in range(n)] for i in range(n)])
+    return found is not None and (found.definite or not strict)
+
+
+def _read(statement: Statement, proof: dict[str, Any]) -> Point:
+    claim = statement.claim
+    if claim.kind == "conforms":
+        raise Invalid("that an expression conforms is not refuted by values")
+    if statement.conditions:
+        raise Invalid("a refutation has no conditions, for the kernel could not check that they hold")
+    fleet = any(per_node(key) for key in (*statement.scalars, *statement.names)) or any(
+        meaning.kind in ("sum", "total") for meaning in statement.names.values()
+    )
+    node_wanted = bool(statement.listings[claim.listing].letters)
+    which = "x" if claim.matrix is not None else "at"
+    extra = ["graph"] if fleet else []
+    fields(proof, ("kind", "values", which, *extra, *(["node"] if node_wanted else [])), "proof")
+    graph = read_graph(proof["graph"]) if fleet else {}
+    node = typed(proof["node"], str, "node") if node_wanted else ""
+    if node_wanted and node not in graph:
+        raise Invalid(f"the graph has no node {node[:40]!r}")
+    return Point(_values(statement, proof["values"], graph), graph, node, _failure(statement, proof[which]))
+
+
+def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Fraction]:
+    """The number of each free symbol at each node; no other."""
+    wanted = {
+        name
+        for key in statement.scalars
+        for name in ([at_node(key, node) for node in graph] if per_node(key) else [key])
+    }
+    table = fields(given, wanted, "values")
+    return {name: rational(value, f"the value of {name}") for name, value in table.items()}
+
+
+def _failure(statement: Statement, where: Any) -> Callable[[Sequence[Interval]], bool]:
+    """Does the claim fail for its enclosed outputs, at the entry or for the vector that the proof names?"""
+    claim = statement.claim
+    if claim.matrix is not None:
+        x = [rational(entry, f"x[{k + 1}]") for k, entry in enumerate(typed(where, list, "x"))]
+        if len(x) != claim.shape[0]:
+            raise Invalid(f"x has {len(x)} entries, but the matrix has {claim.shape[0]} rows")
+        return lambda outputs: _form_fails(claim.kind, claim.matrix, outputs, x)
+    count = claim.shape[0] * claim.shape[1]
+    at = natural(where, count, "at")
+    if claim.kind == "equal":
+        return lambda outputs: _differ(outputs[at], outputs[count + at])
+    return lambda outputs: _sign_fails(claim.kind, outputs[at])
+
+
+def _differ(a: Interval, b: Interval) -> bool:
+    if a.hi < b.lo or b.hi < a.lo:
+        return True
+    if a.thin and b.thin:
+        return False
+    raise Undecided("whether the two sides differ")
+
+
+def _sign_fails(kind: str, a: Interval) -> bool:
+    """a >= 0 fails where a < 0, a > 0 where a <= 0."""
+    strict = kind == "positive"
+    if a.hi < 0 or (strict and a.hi == 0):
+        return True
+    if a.lo > 0 or (not strict and a.lo == 0):
+        return False
+    raise Undecided("the sign of the entry")
+
+
+def _form_fails(kind: str, tree: Any, outputs: Sequence[Interval], x: Sequence[Fraction]) -> bool:
+    strict = kind == "positive_definite"
+    if strict and not any(x):
+        raise Invalid("the vector x is zero")
+    return _sign_fails("positive" if strict else "nonnegative", _form(tree, outputs, x))
+
+
+def _form(tree: Any, outputs: Sequence[Interval], x: Sequence[Fraction]) -> Interval:
+    """x'Ax for the matrix of a tree."""
+    domain = Enclosure(BITS[-1])
+    total = point(0)
+    for part, entries in _parts(tree, x):
+        for i, row in enumerate(part):
+            for j, k in enumerate(row):
+                if entries[i] and entries[j]:
+                    total = domain.add(total, domain.mul(point(entries[i] * entries[j]), outputs[k]))
+    return total
+
+
+def _parts(tree: Any, x: Sequence[Fraction]) -> Iterator[tuple[list[list[int]], Sequence[Fraction]]]:
+    """The entries of each block on the diagonal, with the part of x that belongs to it."""
+    if "entries" in tree:
+        yield tree["entries"], x
+    elif "kron_identity" in tree:
+        for k in range(tree["size"]):
+            yield from _parts(tree["kron_identity"], x[k :: tree["size"]])
+    else:
+        start = 0
+        for block in tree["blocks"]:
+            size = _size(block)
+            yield from _parts(block, x[start : start + size])
+            start += size
+
+
+def _size(tree: Any) -> int:
+    if "entries" in tree:
+        return len(tree["entries"])
+    if "kron_identity" in tree:
+        return int(tree["size"]) * _size(tree["kron_identity"])
+    return sum(map(_size, tree["blocks"]))
