@@ -235,28 +235,18 @@ class Collector:
                 self.assume(assumed.claim, assumed.about)
 
     def _occurs(self, claim: Statement) -> bool:
-        """Does the problem hold every state and signal of the assumption, and at least one of its symbols?"""
+        """Does a state or signal of the assumption occur in the problem, or any symbol of one about parameters?"""
         known = {star(n) for n in self.scalars}
-        found = False
+        occurring, kinds = set(), set()
         for expr in _sides(claim)[0]:
             for node in walk(expr):
-                if node.op != "symbol":
-                    continue
-                name = node.args[0].replace(".i", ".*")
-                declared = self.study.symbols[name]
-                if all(n in self.values for n in declared.values) and declared.values:
-                    continue
-                occurs = bool(known & set(component_names(name, node.shape, node.args[2])))
-                if not occurs and declared.kind in ("state", "signal"):
-                    return False
-                found = found or (occurs and (declared.kind != "parameter" or _only_parameters(claim, self.study)))
-        return found
-
-
-def _only_parameters(claim: Statement, study: Study) -> bool:
-    """Do all symbols of the claim stand for parameters?"""
-    names = [n.args[0].replace(".i", ".*") for e in _sides(claim)[0] for n in walk(e) if n.op == "symbol"]
-    return all(study.symbols[name].kind == "parameter" for name in names)
+                if node.op == "symbol":
+                    name = node.args[0].replace(".i", ".*")
+                    kind = self.study.symbols[name].kind
+                    kinds.add(kind)
+                    if known & set(component_names(name, node.shape, node.args[2])):
+                        occurring.add(kind)
+        return bool(occurring - {"parameter"}) or (kinds == {"parameter"} and bool(occurring))
 
 
 def _sides(claim: Statement) -> tuple[list[Expr], str, tuple[int, int]]:

@@ -116,6 +116,6 @@ def star(name: str) -> str:
 
 def split(name: str) -> tuple[str, str | None, str]:
     """Symbol, node (None outside fleets) and index of a scalar's name: `q.i[1]` is ("q", "i", "[1]")."""
-    head, bracket, index = name.partition("[")
+    head, bracket, index = name.rstrip("'").partition("[")
     base, dot, node = head.partition(".")
     return base, node if dot else None, bracket + index

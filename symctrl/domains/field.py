@@ -99,6 +99,17 @@ class Field:
         """Indices of the generators that occur in p."""
         return {self.size - 1 - c for c, degree in enumerate(p.degrees()) if degree}
 
+    def made_of(self, k: int) -> set[int]:
+        """Indices of the generators that an opaque generator is defined over."""
+        g = self.generators[k]
+        found = {g.partner} if g.partner >= 0 else set()
+        for part in (g.argument if isinstance(g.argument, tuple) else (g.argument, g.exponent)):
+            for key, p in (part if isinstance(part, dict) else {(): part}).items() if part is not None else ():
+                found |= self.occurring(p)
+                for f, _ in key:
+                    found |= self.occurring(self.factors[f])
+        return found
+
     def json(self, p: Poly) -> list[list[Any]]:
         """The POLY form of docs/certificates.md."""
         result = []

@@ -1,0 +1,114 @@
+"""One exact evaluation of a problem: its assumptions as relations and known signs, its claim as exact values.
+
+The evaluation starts again, knowing more, when it needs more generators or finer ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, TypeVar
+
+from symctrl.domains.domain import Unsupported
+from symctrl.domains.exact import ExactDomain
+from symctrl.domains.field import Exact, Field, Generator, OutOfGenerators, Poly
+from symctrl.domains.opaque import Knowledge, Refine
+from symctrl.domains.tangent import Pair
+from symctrl.evaluate import Environment
+from symctrl.problem import Assumption, Output, Problem, split
+
+MAX_RESTARTS = 40
+Result = TypeVar("Result")
+
+
+@dataclass
+class Session:
+    """The exact domain with the problem's assumptions in it. `sums` are the generators of sums, with what they stand for.
+
+    `zeros` are the numerators of the equations assumed at node i.
+    """
+
+    problem: Problem
+    domain: ExactDomain
+    environment: Environment = field(init=False)
+    sums: dict[int, tuple[str, int, str | None]] = field(default_factory=dict)
+    zeros: list[tuple[Assumption, Poly]] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.environment = Environment(self.problem, self.domain, self.free, self)
+        for node in self.nodes():
+            for assumption in self.problem.given:
+                self._learn(assumption, {"i": node, "j": "j"} if node == "i" else {"i": node})
+
+    def nodes(self) -> list[str]:
+        """The generic nodes that occur: i, and j where a neighbour does; a problem without a fleet has the one case i."""
+        letters = {
+            split(name)[1] for tape in self.problem.listings.values() for name in tape.inputs
+        } - {None}
+        return ["i", "j"] if "j" in letters else ["i"]
+
+    def free(self, name: str) -> Exact:
+        """The generator of a free scalar."""
+        return self.domain.polynomial(self.domain.field.variable(self._generator(name)))
+
+    def value(self, at: Environment, name: str, level: int, law: str | None) -> Any:
+        """The value of a sum: a generator, with one more for each derivative."""
+        return self._sum(name, level, 0, law)
+
+    def claim(self) -> list[Exact]:
+        return list(self.environment.outputs(self.problem.claim.listing, {"i": "i", "j": "j"}))
+
+    def at(self, of: Output, binding: dict[str, str]) -> Exact:
+        value: Exact = self.environment.output(of, binding)
+        return value
+
+    def _sum(self, name: str, level: int, order: int, law: str | None) -> Any:
+        if level > 0:
+            return Pair(self._sum(name, level - 1, order, law), self._sum(name, level - 1, order + 1, law))
+        k = self._generator(name + "'" * order)
+        known = self.sums.setdefault(k, (name, order, law))
+        if order and known[2] != law:
+            raise Unsupported("the rates of one sum under two laws do not go into one claim")
+        return self.domain.polynomial(self.domain.field.variable(k))
+
+    def _generator(self, name: str) -> int:
+        index = self.domain.field.index
+        if name not in index:
+            index[name] = self.domain.field.add_generator(Generator("free", name))
+        return index[name]
+
+    def _learn(self, assumption: Assumption, binding: dict[str, str]) -> None:
+        values = [self.at(of, binding) for of in assumption.of]
+        domain = self.domain
+        if assumption.kind.startswith("positive_"):
+            rows = [values[r :: assumption.size] for r in range(assumption.size)]
+            polynomials = [[v.get((), domain.field.polynomial(0)) for v in row] for row in rows]
+            if assumption.kind == "positive_definite" and all(set(v) <= {()} for v in values):
+                domain.signs.learn_definite(polynomials)
+            return
+        numerator, key = domain.together(values[0])
+        if assumption.kind == "zero":
+            domain.field.add_relation(numerator)
+            if binding["i"] == "i" and not numerator.is_zero():
+                self.zeros.append((assumption, numerator))
+            return
+        for k, e in key:
+            numerator = numerator * domain.field.factors[k] ** e
+        domain.signs.learn(numerator, assumption.kind)
+
+
+def exactly(problem: Problem, work: Callable[[Session], Result]) -> Result:
+    """`work` on a session of the problem, with as many generators and as fine ones as it turns out to need.
+
+    Raises Unsupported where an operation has no exact meaning, NowhereDefined, NoRate, NotDifferentiable.
+    """
+    knowledge = Knowledge()
+    spare = 16 + sum(len(tape.inputs) for tape in problem.listings.values()) * 2
+    for _ in range(MAX_RESTARTS):
+        try:
+            return work(Session(problem, ExactDomain(Field([], spare), knowledge)))
+        except OutOfGenerators:
+            spare *= 2
+        except Refine:
+            continue
+    raise Unsupported("the roots and angles of this claim need ever finer generators")
