@@ -170,7 +170,7 @@ class Expr:
 
     def __abs__(self) -> NoReturn:
         raise TypeError(
-            "abs() has several readings: write absolute(v) for each component, norm(v, 1) for the sum of these, "
+            "abs() has several readings: write absolute(v) for each component, norm(v, 1) for their sum, "
             "or norm(v) for the Euclidean length"
         )
 
@@ -379,6 +379,6 @@ def _bound(left: Expr, relation: Relation, right: Liftable) -> Bound:
 
 
 __all__ = [
-    "SCALAR", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape", "component_names", "deferred",
-    "foreign", "joined", "lift", "mismatch", "scalars", "short_text", "symbol", "terms", "walk",
+    "SCALAR", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape", "component_names",
+    "deferred", "foreign", "joined", "lift", "mismatch", "scalars", "short_text", "symbol", "terms", "walk",
 ]  # fmt: skip
