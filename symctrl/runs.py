@@ -31,7 +31,7 @@ def decide(
     fresh: bool,
     watch: Callable[[str], AbstractContextManager[Progress]],
 ) -> Iterator[tuple[Study, Report]]:
-    """Each requested study with its report, in order. All studies are built before the first claim is decided.
+    """Each requested study with its report, in order. All are built before the first claim is decided.
 
     claims: ids, each of which one study at least must have; None for all. fresh: verdicts of earlier runs are
     not used. watch: given a study's name, the context in which its claims are reported to a progress display.

@@ -76,7 +76,7 @@ def _stands(row: Row) -> str:
 
 
 def _in_few_words(row: Row) -> str:
-    """Nothing where all is well; else the condition about the trajectory, the reason, what is odd beside it."""
+    """Nothing where all is well; else the condition on the trajectory, the reason, what is odd beside it."""
     said = [f"if {given.text}" for given in row.given if row.conditional and given.about == "trajectory"]
     if row.verdict != "proved" or not row.stands:
         said.append(textwrap.shorten(row.reason, _LONGEST_REASON, placeholder=" …"))

@@ -18,12 +18,14 @@ TEST = "python3 -m venv .venv && .venv/bin/pip install -q '.[test]' && .venv/bin
 
 @pytest.mark.parametrize("tool", [("ruff", "check"), ("mypy",)], ids=lambda tool: tool[0])
 def test_the_code_passes(tool):
-    done = subprocess.run([sys.executable, "-m", *tool], cwd=ROOT, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", *tool]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_the_first_two_commands_of_the_readme_set_up_use_and_test():
-    blocks = re.findall(r"^```(\w*)\n(.*?)^```$", (ROOT / "README.md").read_text(encoding="utf-8"), re.M | re.S)
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"^```(\w*).*?\n(.*?)^```$", readme, re.M | re.S)
     shell = [body for language, body in blocks if language == "sh"]
     assert shell[:2] == [f"{USE}\n", f"{TEST}\n"]
 
@@ -32,11 +34,10 @@ def test_ci_runs_the_second_command_of_the_readme(tmp_path):
     (tmp_path / ".ci").mkdir()
     script = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
     (tmp_path / ".ci" / "run").write_text(re.sub(r"(?m)^DEBIAN_TOOLS=\([^)]*\)", "DEBIAN_TOOLS=()", script))
-    readme = "```text\nno\n```\n```sh\necho first\n```\n```sh\necho 'second' && exit 7\n```\n```sh\necho third\n```\n"
+    blocks = [("text", "no"), ("sh", "echo first"), ("sh", "echo 'second' && exit 7"), ("sh", "echo third")]
+    readme = "".join(f"Words.\n```{language}\n{body}\n```\n" for language, body in blocks)
     (tmp_path / "README.md").write_text(readme)
-    done = subprocess.run(
-        ["bash", ".ci/run"], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = subprocess.run(["bash", ".ci/run"], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 7
     assert done.stdout.splitlines()[1:] == ["second"]
 
