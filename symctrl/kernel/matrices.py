@@ -86,9 +86,9 @@ def has_factors(rows: Rows, lower: Rows, diagonal: Sequence[Fraction]) -> bool:
     found = eliminate(rows)
     if found is None or any(row[-1] != 1 for row in lower):
         return False
-    last = found.denominator
+    last = 1
     for k, (pivot, column) in enumerate(zip(found.pivots, found.columns, strict=True)):
-        if diagonal[k] * last != pivot:
+        if diagonal[k] * found.denominator * last != pivot:
             return False
         if pivot:
             last = pivot

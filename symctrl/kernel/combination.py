@@ -1,0 +1,104 @@
+"""A quantity is nonnegative as a combination of assumptions and squares.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem: a sum of terms c g_1 .. g_k p_1^2 .. p_m^2 with c > 0, where each g is nonnegative on the domain,
+is nonnegative there; it is positive where in one term each g is positive and each p is not zero. A
+quotient has the sign of its numerator times the factors of odd exponent in its denominator, and that of
+its numerator alone where those factors are positive; all factors are nonzero on the domain.
+
+A term is `[c, [g, ..], [POLY, ..]]`. A g is the index of an assumption that a scalar is positive or
+nonnegative, and stands for the numerator of that scalar times its factors of odd exponent; or it is a
+POLY whose sign the kernel knows (a root, an absolute value, an exponential, ..).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symctrl.kernel.certificate import Invalid, Statement, fields, natural, rational, typed
+from symctrl.kernel.conditions import SIGNS
+from symctrl.kernel.evaluation import NoSums
+from symctrl.kernel.field import Value
+from symctrl.kernel.polynomial import Poly
+from symctrl.kernel.replay import Replay, require_conditions
+
+
+def verify(statement: Statement, proof: dict[str, Any]) -> None:
+    """Returns if each entry of the claim is proved. Raises Invalid, Declined."""
+    if statement.claim.kind not in ("nonnegative", "positive"):
+        raise Invalid(f"a combination proves a sign, not the claim {statement.claim.kind}")
+    fields(proof, ("kind", "generators", "factors", "hints", "entries"), "proof")
+    replay = Replay(statement, proof, NoSums())
+    replay.assume("i")
+    outputs = replay.claim()
+    entries = typed(proof["entries"], list, "entries")
+    if len(entries) != len(outputs):
+        raise Invalid(f"the claim has {len(outputs)} entries, and the proof has {len(entries)}")
+    for k, (value, entry) in enumerate(zip(outputs, entries, strict=True)):
+        prove_sign(replay, value, entry, statement.claim.kind == "positive", f"entry {k}")
+    require_conditions(statement, replay.close())
+
+
+def prove_sign(replay: Replay, value: Value, entry: Any, strict: bool, where: str) -> None:
+    """Returns if the terms prove the value nonnegative, or positive if `strict`. Raises Invalid."""
+    field = replay.field
+    total: Poly = {}
+    positive = False
+    for k, term in enumerate(typed(fields(entry, ("terms",), where)["terms"], list, where)):
+        product, sure = _term(replay, term, f"{where}, term {k}")
+        total = field.ring.add(total, product)
+        positive = positive or sure
+    if strict and not positive:
+        raise Invalid(f"{where}: no term is certainly positive")
+    if not any(field.is_zero({(): _minus(replay, form, total)}) for form in _forms(replay, value)):
+        raise Invalid(f"{where}: the terms do not add up to what is claimed to have a sign")
+
+
+def _minus(replay: Replay, p: Poly, q: Poly) -> Poly:
+    return replay.field.ring.add(p, replay.field.ring.scale(q, -1))
+
+
+def _forms(replay: Replay, value: Value) -> list[Poly]:
+    """Polynomials with the sign of the value."""
+    numerator, key = replay.field.fraction(value)
+    odd = [replay.field.factors[factor] for factor, exponent in key if exponent % 2]
+    if all(replay.signs.of(p) - {0} == SIGNS["positive"] for p in odd):
+        return [numerator, replay.signs.carrier(value)]
+    return [replay.signs.carrier(value)]
+
+
+def _term(replay: Replay, value: Any, where: str) -> tuple[Poly, bool]:
+    """The polynomial of a term, and whether it is certainly positive."""
+    term = typed(value, list, where)
+    if len(term) != 3:
+        raise Invalid(f"{where}: a term is [number, [assumption, ..], [POLY, ..]]")
+    c = rational(term[0], where)
+    if c <= 0:
+        raise Invalid(f"{where}: the number {c} is not positive")
+    result: Poly = {0: c.numerator if c.denominator == 1 else c}
+    positive = True
+    for g in typed(term[1], list, where):
+        p, sure = _nonnegative(replay, g, where)
+        result = replay.field.ring.mul(result, p)
+        positive = positive and sure
+    for square in typed(term[2], list, where):
+        p = replay.poly(square, where)
+        result = replay.field.ring.mul(result, replay.field.ring.mul(p, p))
+        positive = positive and (p in replay.field.factors or 0 not in replay.signs.of(p))
+    return result, positive
+
+
+def _nonnegative(replay: Replay, g: Any, where: str) -> tuple[Poly, bool]:
+    """A polynomial that is not negative, and whether it is positive."""
+    if type(g) is list:
+        p = replay.poly(g, where)
+        signs = replay.signs.of(p)
+        if not signs <= SIGNS["nonnegative"]:
+            raise Invalid(f"{where}: the sign of {replay.signs.printer.poly(p)[:200]} is not known")
+        return p, 0 not in signs
+    k = natural(g, len(replay.given), where)
+    kind = replay.statement.given[k].kind
+    if kind not in ("positive", "nonnegative"):
+        raise Invalid(f"{where}: assumption {k} says {kind}, which gives no factor of a term")
+    return replay.signs.carrier(replay.given[k][0]), kind == "positive"
