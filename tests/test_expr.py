@@ -134,6 +134,7 @@ def test_nothing_is_simplified(op: str) -> None:
 def test_a_zero_divisor_stays_in_the_graph() -> None:
     assert opcodes(lift(1) / 0).count("DIV") == opcodes(x / 0).count("DIV") == 1
     assert (lift(1) / 0).value is None
+    assert opcodes(lift(0) ** -1) == ["INPUT", "INPUT", "POW"]
 
 
 def test_the_switch_of_casadi_is_left_as_it_was() -> None:
