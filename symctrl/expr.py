@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 Liftable = Union["Expr", int, Fraction, str, float, list[Any], tuple[Any, ...], "np.ndarray[Any, Any]"]
 Relation = Literal[">=", "<=", ">", "<"]
+LARGEST_EXPONENT = 1000  # of a literal in powers of ten
 SCALAR: Shape = (1, 1)
 
 
@@ -210,7 +211,7 @@ def lift(x: Liftable) -> Expr:
         return _lift_rows(x)
     raise TypeError(
         f'a {type(x).__name__} is no expression; give an Expr, a number, a string like "1/3" or a list '
-        "of these, and take CasADi in by foreign(sx, text)"
+        "of these, and take CasADi in by study.wrap(sx)"
     )
 
 
@@ -298,6 +299,9 @@ def _checked(shape: Shape) -> Shape:
 
 def _number(text: str) -> Fraction:
     try:
+        exponent = text.lower().partition("e")[2]
+        if exponent and abs(int(exponent)) > LARGEST_EXPONENT:
+            raise ValueError("the number would fill the memory")
         return Fraction(text.strip())
     except (ValueError, ZeroDivisionError):
         raise ValueError(

@@ -204,7 +204,7 @@ HELP: list[tuple[Callable[[], Any], str]] = [
     (lambda: x + True, "no expression"),
     (lambda: lift(None), "return"),  # type: ignore[arg-type]
     (lambda: x + 1j, "no expression"),
-    (lambda: x + ca.SX(1), "foreign"),
+    (lambda: x + ca.SX(1), "wrap"),
     (lambda: np.array([x, y]), "stack"),
     (lambda: len(M), "no length"),
     (lambda: list(M), r"M\[r, :\]"),
@@ -224,7 +224,7 @@ def test_what_has_no_meaning_is_answered_with_what_has(write: Callable[[], Any],
         write()
 
 
-@pytest.mark.parametrize("text", ["", "x", "1/0", "0,5", "1/3 m"])
+@pytest.mark.parametrize("text", ["", "x", "1/0", "0,5", "1/3 m", "1e999999999", "1e"])
 def test_a_string_that_is_no_number_is_refused(text: str) -> None:
     with pytest.raises(ValueError, match="is no exact number"):
         lift(text)
