@@ -1,10 +1,9 @@
 """Rigorous enclosures by balls, rounded outward (Johansson, Arb, IEEE Trans. Computers 66 (2017) 1281).
 
 Every operation returns a ball that contains its value for all arguments in the given balls. nan means
-undecided: the operation may be undefined somewhere on its arguments (a division by a ball containing zero), and
-nothing is said about the value. Arb is made for narrow balls; at wide ones the operations here take hulls
-over the ends of their arguments wherever they are monotone, and keep what is not negative from dipping below
-zero.
+undecided: the operation may be undefined somewhere on its arguments (a divisor contains zero), and nothing is
+said about the value. Arb is made for narrow balls; at wide ones the operations here take hulls over the ends
+of their arguments wherever they are monotone, and keep what is not negative from dipping below zero.
 """
 
 from __future__ import annotations
