@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+import textwrap
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
@@ -155,6 +156,26 @@ def verify(
     answers = [report.as_json(tool()) for report in reports]
     _emit(json, answers if every or len(answers) > 1 else answers[0])
     raise typer.Exit(0 if all(settled(row, strict) for report in reports for row in report.rows) else 1)
+
+
+@app.command()
+def check(paths: Annotated[list[Path], typer.Argument(metavar="FILE...")]) -> None:
+    """Check certificate files with the kernel alone.
+
+    Exits 0 all valid, 1 one invalid, 2 one unreadable, 3 one declined; the worst counts.
+    """
+    from symctrl.kernel.check import check_file, exit_code
+
+    answers = []
+    for path in paths:
+        answer = check_file(path)
+        answers.append(answer)
+        if answer.status == "unreadable":
+            _complain(f"{path}: unreadable: {answer.reason}")
+            continue
+        print(f"{path}: {answer.status}: {answer.reason}")
+        print(textwrap.indent(answer.statement, "  "))
+    raise typer.Exit(exit_code(answers))
 
 
 @app.command()

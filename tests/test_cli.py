@@ -361,3 +361,61 @@ def test_posdef_of_several_answers_each_in_order(run, tmp_path):
     (tmp_path / "odd.json").write_text('{"matrix": [[1, 2], [3, 4]]}')
     refused(run("posdef", "good.json", "odd.json", "--json", "answer.json"), "odd.json")
     assert not (tmp_path / "answer.json").exists()
+
+
+# check
+
+
+@pytest.fixture
+def graded(run, tmp_path):
+    """Files whose certificates have the four statuses."""
+    (tmp_path / "m.json").write_text('{"matrix": [["2", "1"], ["1", "2"]]}')
+    run("posdef", "m.json", "--json", "answer.json")
+    good = json.loads((tmp_path / "answer.json").read_text())["certificate"]
+    statement, proof = good["statement"], good["proof"]
+    made = {
+        "valid": good,
+        "invalid": certificate(statement, proof | {"matrix": {"ldl": {"lower": [], "diagonal": []}}}),
+        "declined": certificate(statement, proof | {"kind": "by authority"}),
+        "unreadable": good | {"format": "symctrl-certificate/99"},
+    }
+    for status, body in made.items():
+        (tmp_path / f"{status}.json").write_text(json.dumps(body))
+    return run
+
+
+@pytest.mark.parametrize(
+    ("statuses", "expected"),
+    [
+        ("valid", 0),
+        ("valid valid", 0),
+        ("invalid", 1),
+        ("declined", 3),
+        ("valid declined invalid", 1),
+        ("declined valid", 3),
+        ("invalid unreadable declined", 2),
+    ],
+)
+def test_check_says_of_each_file_what_it_is_and_the_worst_counts(graded, statuses, expected):
+    names = [f"{status}.json" for status in statuses.split()]
+    code, out, err = graded("check", *names)
+    assert code == expected
+    said = [line.split(":")[:2] for line in out.splitlines() if not line.startswith(" ")]
+    assert said == [[f"{s}.json", f" {s}"] for s in statuses.split() if s != "unreadable"]
+    assert ("unreadable.json: unreadable: " in err) == ("unreadable" in statuses)
+
+
+def test_check_prints_the_statement_that_was_checked(graded):
+    _, out, _ = graded("check", "valid.json")
+    assert "positive definite" in out.split("\n", 1)[1]
+
+
+def test_check_needs_none_of_the_heavy_libraries(graded, tmp_path):
+    heavy = "casadi numpy flint networkx scipy sympy rich"
+    code = (
+        "import sys; from symctrl import cli; code = cli.run(['check', 'valid.json'])\n"
+        f"print(code, sorted(set(sys.modules) & set({heavy!r}.split())), file=sys.stderr)"
+    )
+    command = [sys.executable, "-c", code]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stderr == "0 []\n"

@@ -1,7 +1,7 @@
 """What the README and docs/ show is what happens: files are written, commands run, output compared.
 
-A block that begins with three backquotes, a language and NAME is the file NAME. In a block of the language console
-a line after `$ ` is a command, and the lines up to the next one are what it prints; times may differ.
+A block that begins with three backquotes, a language and NAME is the file NAME. In a block of the language
+console a line after `$ ` is a command, and the lines up to the next one are what it prints; times may differ.
 """
 
 import os
