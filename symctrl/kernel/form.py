@@ -2,8 +2,9 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on no theorem. A listing is in single assignment form: register k is written by instruction k alone, from
-registers below k; no two instructions are equal and each is needed by an output, so no change of one goes unseen.
+Relies on no theorem. A listing is in single assignment form: register k is written by instruction k alone,
+from registers below k. No two instructions are equal and each is needed by an output, so that no change of
+one goes unseen.
 """
 
 from __future__ import annotations
@@ -40,8 +41,8 @@ DEFINITE_KINDS = ("positive_definite", "positive_semidefinite")
 CONDITION_KINDS = ("nonzero", "nonnegative", "positive")
 
 _UNARY = (
-    "NEG EXP LOG SQRT SQ TWICE SIN COS TAN ASIN ACOS ATAN SINH COSH TANH ASINH ACOSH ATANH FABS SIGN FLOOR CEIL "
-    "NOT ERF INV LOG1P EXPM1"
+    "NEG EXP LOG SQRT SQ TWICE SIN COS TAN ASIN ACOS ATAN SINH COSH TANH ASINH ACOSH ATANH FABS SIGN FLOOR "
+    "CEIL NOT ERF INV LOG1P EXPM1"
 )
 _BINARY = "ADD SUB MUL DIV POW CONSTPOW LT LE EQ NE AND OR IF_ELSE_ZERO FMIN FMAX ATAN2 HYPOT"
 ARITY: Mapping[str, int] = {**dict.fromkeys(_UNARY.split(), 1), **dict.fromkeys(_BINARY.split(), 2)}

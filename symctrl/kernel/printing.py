@@ -1,0 +1,98 @@
+"""A verified statement as plain text, built from its own content.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Relies on no theorem. Formulas are read back from the listings; a listing too long for a line is named by
+its digest. Words that the certificate brings are marked as such and cannot break out of their line.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from symctrl.kernel.certificate import Listing, Meaning, Ref, Statement
+
+MAX_FORMULA = 400
+_INFIX = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "POW": "^", "CONSTPOW": "^"}
+_PREFIX = {"NEG": "-{}", "SQ": "{}^2", "TWICE": "2*{}", "INV": "1/{}"}
+
+
+def line(text: str) -> str:
+    """The text with everything that does not print written as an escape."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def print_statement(statement: Statement, refuted: bool = False) -> str:
+    """All that the statement says: the claim, what it is about, and under which conditions."""
+    return "\n".join(_lines(statement, refuted))
+
+
+def _lines(s: Statement, refuted: bool) -> Iterator[str]:
+    yield f'statement {line(s.id)} of {line(s.study)}, in the words of the certificate: "{line(s.text)}"'
+    yield ("it is false that " if refuted else "") + _claim(s)
+    for given in s.given:
+        of = ", ".join(_formula(s, ref) for ref in given.of)
+        about = f" (about {line(given.about)})" if given.about else ""
+        yield f"given{about}: {of} {given.kind.replace('_', ' ')}"
+    for condition in s.conditions:
+        yield f"if {line(condition.of)} is {condition.kind}"
+    for name, meaning in s.names.items():
+        yield f"where {name} is {_meaning(s, meaning)}"
+    for name, ref in s.motion.items():
+        yield f"where d/dt {name} = {_formula(s, ref)}"
+    for law, table in s.laws.items():
+        for name, ref in table.items():
+            yield f"where the law {line(law)} has {name} = {_formula(s, ref)}"
+    kinds = sorted(set(s.scalars.values()))
+    for kind in kinds:
+        yield f"for all {kind}: " + ", ".join(name for name, of in s.scalars.items() if of == kind)
+
+
+def _claim(s: Statement) -> str:
+    claim, listing = s.claim, s.claim.listing
+    outputs = [_formula(s, (listing, k)) for k in range(len(s.listings[listing].outputs))]
+    size = f"{claim.shape[0]}x{claim.shape[1]}"
+    if claim.kind == "equal":
+        half = len(outputs) // 2
+        return f"claim ({size}): [" + "; ".join(outputs[:half]) + "] = [" + "; ".join(outputs[half:]) + "]"
+    tree = f" with entries {claim.matrix}" if claim.matrix is not None else ""
+    return f"claim ({size}): [" + "; ".join(outputs) + f"] {claim.kind.replace('_', ' ')}{tree}"
+
+
+def _meaning(s: Statement, meaning: Meaning) -> str:
+    if meaning.kind == "constant":
+        return str(meaning.value)
+    of = _formula(s, meaning.of)
+    law = f" under the law {line(meaning.law)}" if meaning.law is not None else ""
+    return {
+        "value": of,
+        "rate": f"d/dt ({of}){law}",
+        "sum": f"the sum over neighbours j of {of}",
+        "total": f"the sum over all nodes i of {of}",
+    }[meaning.kind]
+
+
+def _formula(s: Statement, ref: Ref) -> str:
+    listing = s.listings[ref[0]]
+    text = _read_back(listing, listing.outputs[ref[1]])
+    return text if text is not None else f"output {ref[1]} of {line(ref[0])} (sha256 {listing.sha256})"
+
+
+def _read_back(listing: Listing, register: int) -> str | None:
+    """The formula of a register, or None where it is too long."""
+    texts: dict[int, str] = {}
+    for k, step in enumerate(listing.code[: register + 1]):
+        args = [texts.get(a) for a in step.args]
+        if step.op in ("INPUT", "CONST"):
+            text = step.name or str(step.value)
+        elif None in args:
+            continue
+        elif step.op in _INFIX:
+            text = f"({args[0]} {_INFIX[step.op]} {args[1]})"
+        elif step.op in _PREFIX:
+            text = f"({_PREFIX[step.op].format(args[0])})"
+        else:
+            text = f"{step.op.lower()}({', '.join(map(str, args))})"
+        if len(text) <= MAX_FORMULA:
+            texts[k] = text
+    return texts.get(register)
