@@ -93,12 +93,18 @@ def _wanted(studies: Sequence[Study], claims: Collection[str] | None) -> list[Co
     """For each study those of the claims that it has. A single study is left to say what it does not know."""
     if claims is None or len(studies) == 1:
         return [claims] * len(studies)
-    known = [set(study.statement_ids()) for study in studies]
+    known = [_askable(study) for study in studies]
     for claim in claims:
         if not any(claim in ids for ids in known):
             names = ", ".join(study.name for study in studies)
             raise InputError(f"claim {claim}: none of the studies {names} has it")
     return [[claim for claim in claims if claim in ids] for ids in known]
+
+
+def _askable(study: Study) -> set[str]:
+    """Its ids, and for the readings `id[name]` of one statement the `id` that means them all."""
+    ids = study.statement_ids()
+    return {*ids, *(name.partition("[")[0] for name in ids)}
 
 
 def _file_name(name: str) -> str:

@@ -254,7 +254,7 @@ def test_an_old_answer_stays_when_the_new_one_fails(run, decides, tmp_path, monk
 
 
 def test_claims_are_asked_of_the_studies_that_have_them(run, decides):
-    one, two = decides("one", row("a"), row("b")), decides("two", row("b"), row("c"))
+    one, two = decides("one", row("a[first]"), row("b")), decides("two", row("b"), row("c"))
     run("verify", one, two, "--claim", "a", "--claim", "b")
     assert [list(only) for only in decides.asked] == [["a", "b"], ["b"]]
     refused(run("verify", one, two, "--claim", "d"), "claim d: none of the studies one, two has it")
