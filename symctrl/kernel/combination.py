@@ -16,54 +16,66 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Invalid, Statement, fields, natural, rational, typed
+from symctrl.kernel.certificate import Condition, Invalid, Statement, fields, natural, rational, typed
 from symctrl.kernel.conditions import SIGNS
-from symctrl.kernel.evaluation import NoSums
 from symctrl.kernel.field import Value
 from symctrl.kernel.polynomial import Poly
 from symctrl.kernel.replay import Replay, require_conditions
+from symctrl.kernel.sums import SumIdentity, SymbolSums
 
 
 def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Returns if each entry of the claim is proved. Raises Invalid, Declined."""
+    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
+    require_conditions(statement, needed_conditions(statement, proof))
+
+
+def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """The conditions under which the proof shows the claim, whatever the statement lists; see `verify`."""
     if statement.claim.kind not in ("nonnegative", "positive"):
         raise Invalid(f"a combination proves a sign, not the claim {statement.claim.kind}")
     fields(proof, ("kind", "generators", "factors", "hints", "entries"), "proof")
-    replay = Replay(statement, proof, NoSums())
-    replay.assume("i")
+    sums = SymbolSums()
+    replay = Replay(statement, proof, sums)
+    replay.assume_given()
     outputs = replay.claim()
+    test = SumIdentity(replay, sums)
     entries = typed(proof["entries"], list, "entries")
     if len(entries) != len(outputs):
         raise Invalid(f"the claim has {len(outputs)} entries, and the proof has {len(entries)}")
     for k, (value, entry) in enumerate(zip(outputs, entries, strict=True)):
-        prove_sign(replay, value, entry, statement.claim.kind == "positive", f"entry {k}")
-    require_conditions(statement, replay.close())
+        prove_sign(test, value, entry, statement.claim.kind == "positive", f"entry {k}")
+    return replay.close()
 
 
-def prove_sign(replay: Replay, value: Value, entry: Any, strict: bool, where: str) -> None:
+def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where: str) -> None:
     """Returns if the terms prove the value nonnegative, or positive if `strict`. Raises Invalid."""
-    field = replay.field
+    replay, ring = test.replay, test.replay.field.ring
     total: Poly = {}
     positive = False
     for k, term in enumerate(typed(fields(entry, ("terms",), where)["terms"], list, where)):
         product, sure = _term(replay, term, f"{where}, term {k}")
-        total = field.ring.add(total, product)
+        total = ring.add(total, product)
         positive = positive or sure
     if strict and not positive:
         raise Invalid(f"{where}: no term is certainly positive")
-    if not any(field.is_zero({(): _minus(replay, form, total)}) for form in _forms(replay, value)):
-        raise Invalid(f"{where}: the terms do not add up to what is claimed to have a sign")
+    sides: list[Value] = [{(): ring.add(form, ring.scale(total, -1))} for form in _forms(replay, value)]
+    if not any(_is_zero(test, side, where) for side in sides[:-1]):
+        test.require_zero(sides[-1], where)
 
 
-def _minus(replay: Replay, p: Poly, q: Poly) -> Poly:
-    return replay.field.ring.add(p, replay.field.ring.scale(q, -1))
+def _is_zero(test: SumIdentity, value: Value, where: str) -> bool:
+    try:
+        test.require_zero(value, where)
+    except Invalid:
+        return False
+    return True
 
 
 def _forms(replay: Replay, value: Value) -> list[Poly]:
     """Polynomials with the sign of the value."""
     numerator, key = replay.field.fraction(value)
     odd = [replay.field.factors[factor] for factor, exponent in key if exponent % 2]
-    if all(replay.signs.of(p) - {0} == SIGNS["positive"] for p in odd):
+    if odd and all(replay.signs.of(p) - {0} == SIGNS["positive"] for p in odd):
         return [numerator, replay.signs.carrier(value)]
     return [replay.signs.carrier(value)]
 

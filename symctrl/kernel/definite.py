@@ -20,54 +20,71 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, Statement, fields, natural, rational, typed
+from symctrl.kernel.certificate import (
+    Condition,
+    Declined,
+    Invalid,
+    Statement,
+    fields,
+    natural,
+    rational,
+    typed,
+)
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.conditions import determinant
-from symctrl.kernel.evaluation import NoSums
 from symctrl.kernel.field import Value
 from symctrl.kernel.matrices import Rows, eliminate, has_factors, is_dominant
 from symctrl.kernel.replay import Replay, require_conditions
+from symctrl.kernel.sums import SumIdentity, SymbolSums
 
 MAX_MINORS = 6
 Matrix = list[list[Value]]
 
 
 def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Returns if the matrix of the claim is proved definite as it claims. Raises Invalid, Declined."""
+    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
+    require_conditions(statement, needed_conditions(statement, proof))
+
+
+def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """The conditions under which the proof shows the claim, whatever the statement lists; see `verify`."""
     claim = statement.claim
     if claim.kind not in ("positive_definite", "positive_semidefinite"):
         raise Invalid(f"the proof is one of definiteness, not of the claim {claim.kind}")
     fields(proof, ("kind", "generators", "factors", "hints", "matrix"), "proof")
-    replay = Replay(statement, proof, NoSums())
-    replay.assume("i")
-    _prove_tree(replay, replay.claim(), claim.matrix, proof["matrix"], claim.kind == "positive_definite")
-    require_conditions(statement, replay.close())
+    sums = SymbolSums()
+    replay = Replay(statement, proof, sums)
+    replay.assume_given()
+    outputs = replay.claim()
+    test = SumIdentity(replay, sums)
+    _prove_tree(test, outputs, claim.matrix, proof["matrix"], claim.kind == "positive_definite")
+    return replay.close()
 
 
-def _prove_tree(replay: Replay, outputs: Sequence[Value], tree: Any, proof: Any, strict: bool) -> None:
+def _prove_tree(test: SumIdentity, outputs: Sequence[Value], tree: Any, proof: Any, strict: bool) -> None:
     if "kron_identity" in tree:
         table = fields(proof, ("kron_identity", "size"), "matrix")
         if table["size"] != tree["size"]:
             raise Invalid(f"the proof is for {str(table['size'])[:20]} copies, the claim for {tree['size']}")
-        _prove_tree(replay, outputs, tree["kron_identity"], table["kron_identity"], strict)
+        _prove_tree(test, outputs, tree["kron_identity"], table["kron_identity"], strict)
     elif "blocks" in tree:
         parts = typed(fields(proof, ("blocks",), "matrix")["blocks"], list, "blocks")
         if len(parts) != len(tree["blocks"]):
             raise Invalid(f"the proof has {len(parts)} blocks, the claim {len(tree['blocks'])}")
         for block, part in zip(tree["blocks"], parts, strict=True):
-            _prove_tree(replay, outputs, block, part, strict)
+            _prove_tree(test, outputs, block, part, strict)
     else:
         matrix = [[outputs[k] for k in row] for row in tree["entries"]]
-        _prove_entries(replay, matrix, typed(proof, dict, "matrix"), strict)
+        _prove_entries(test, matrix, typed(proof, dict, "matrix"), strict)
 
 
-def _prove_entries(replay: Replay, matrix: Matrix, leaf: Mapping[str, Any], strict: bool) -> None:
+def _prove_entries(test: SumIdentity, matrix: Matrix, leaf: Mapping[str, Any], strict: bool) -> None:
     if leaf.keys() == {"minors"}:
-        _by_minors(replay, matrix, leaf["minors"])
+        _by_minors(test, matrix, leaf["minors"])
     elif leaf.keys() == {"congruence"}:
-        _by_congruence(replay, matrix, leaf["congruence"], strict)
+        _by_congruence(test, matrix, leaf["congruence"], strict)
     else:
-        prove_leaf([[_number(replay, value) for value in row] for row in matrix], leaf, strict)
+        prove_leaf([[_number(test.replay, value) for value in row] for row in matrix], leaf, strict)
 
 
 def _number(replay: Replay, value: Value) -> Fraction:
@@ -110,23 +127,23 @@ def _numbers(value: Any, n: int, where: str) -> list[Fraction]:
     return [rational(entry, where) for entry in value]
 
 
-def _by_minors(replay: Replay, matrix: Matrix, proofs: Any) -> None:
-    n = len(matrix)
+def _by_minors(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
+    field, n = test.replay.field, len(matrix)
     if len(typed(proofs, list, "minors")) != n:
         raise Invalid(f"the matrix has {n} leading principal minors, and the proof {len(proofs)}")
     if n > MAX_MINORS:
         raise Declined(f"minors of more than {MAX_MINORS} rows")
     for i in range(n):
         for j in range(i):
-            if not replay.field.is_zero(replay.field.sub(matrix[i][j], matrix[j][i])):
-                raise Invalid(f"the matrix is not symmetric in row {i + 1}, column {j + 1}")
+            where = f"symmetry in row {i + 1}, column {j + 1}"
+            test.require_zero(field.sub(matrix[i][j], matrix[j][i]), where)
     for k, proof in enumerate(proofs, start=1):
-        minor = determinant(replay.field, [row[:k] for row in matrix[:k]])
-        prove_sign(replay, minor, proof, strict=True, where=f"minor {k}")
+        minor = determinant(field, [row[:k] for row in matrix[:k]])
+        prove_sign(test, minor, proof, strict=True, where=f"minor {k}")
 
 
-def _by_congruence(replay: Replay, matrix: Matrix, parts: Any, strict: bool) -> None:
-    field, n = replay.field, len(matrix)
+def _by_congruence(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None:
+    replay, n = test.replay, len(matrix)
     total: Matrix = [[{} for _ in range(n)] for _ in range(n)]
     gram = [[Fraction(0)] * n for _ in range(n)]
     for part in typed(parts, list, "congruence"):
@@ -141,8 +158,8 @@ def _by_congruence(replay: Replay, matrix: Matrix, parts: Any, strict: bool) -> 
             _add_gram(replay, gram, factor)
     for i in range(n):
         for j in range(n):
-            if not field.is_zero(field.sub(matrix[i][j], total[i][j])):
-                raise Invalid(f"the sum of C'PC is not the matrix in row {i + 1}, column {j + 1}")
+            where = f"the sum of C'PC in row {i + 1}, column {j + 1}"
+            test.require_zero(replay.field.sub(matrix[i][j], total[i][j]), where)
     if strict:
         found = eliminate(gram)
         if found is None or not found.definite:
