@@ -93,7 +93,11 @@ def test_the_answer_for_a_semidefinite_matrix():
 
 def test_the_answer_for_an_indefinite_matrix():
     found = answer(text([["1", "1"], ["1", "0.99999999999999999999"]]), "m.json")
-    assert (found["verdict"], found["definiteness"], found["rank"]) == ("refuted", "not positive semidefinite", 2)
+    assert (found["verdict"], found["definiteness"], found["rank"]) == (
+        "refuted",
+        "not positive semidefinite",
+        2,
+    )
     a = Fraction("0.99999999999999999999")
     x, y = map(Fraction, found["witness"]["x"])
     assert x * x + 2 * x * y + a * y * y < 0
@@ -104,7 +108,11 @@ entries = st.fractions(min_value=-2, max_value=2, max_denominator=4)
 
 
 @settings(max_examples=40, deadline=None)
-@given(st.integers(1, 5).flatmap(lambda n: st.lists(st.lists(entries, min_size=n, max_size=n), min_size=n, max_size=n)))
+@given(
+    st.integers(1, 5).flatmap(
+        lambda n: st.lists(st.lists(entries, min_size=n, max_size=n), min_size=n, max_size=n)
+    )
+)
 def test_every_certificate_is_accepted_and_the_same_again(b):
     n = len(b)
     rows = [[str(b[max(i, j)][min(i, j)] + 2 * (i == j)) for j in range(n)] for i in range(n)]
@@ -126,5 +134,9 @@ def test_no_certificate_no_proof():
     rows = [[Fraction(10) ** digits // (7 * i + 11 * j + 3) for j in range(n - 1)] for i in range(n)]
     gram = [[str(sum(a * b for a, b in zip(r, s, strict=True))) for s in rows] for r in rows]
     found = answer(text(gram), "m.json")
-    assert (found["verdict"], found["definiteness"], found["rank"]) == ("undecided", "positive semidefinite", 3)
+    assert (found["verdict"], found["definiteness"], found["rank"]) == (
+        "undecided",
+        "positive semidefinite",
+        3,
+    )
     assert found["certificate"] is None

@@ -74,7 +74,9 @@ def test_as_the_characteristic_polynomial_says(rows):
 @given(gram(max_size=5), st.lists(st.integers(-200, 200), min_size=5, max_size=5))
 def test_scaling_rows_and_columns_changes_nothing(rows, exponents):
     scale = [Fraction(10) ** e for e in exponents]
-    scaled = [[a * s * t for a, t in zip(row, scale, strict=False)] for row, s in zip(rows, scale, strict=False)]
+    scaled = [
+        [a * s * t for a, t in zip(row, scale, strict=False)] for row, s in zip(rows, scale, strict=False)
+    ]
     found = check(scaled)
     assert (found.definiteness, found.rank) == oracle(rows)
 
@@ -83,7 +85,9 @@ def test_scaling_rows_and_columns_changes_nothing(rows, exponents):
 @given(gram(), st.integers(20, 60))
 def test_indefinite_by_next_to_nothing(rows, digits):
     """A singular matrix less 10^-digits times the identity has a negative eigenvalue as small as that."""
-    shifted = [[a - (i == j) * Fraction(1, 10**digits) for j, a in enumerate(row)] for i, row in enumerate(rows)]
+    shifted = [
+        [a - (i == j) * Fraction(1, 10**digits) for j, a in enumerate(row)] for i, row in enumerate(rows)
+    ]
     found = check(shifted)
     assert (found.definiteness, found.rank) == oracle(shifted)
 
@@ -116,7 +120,10 @@ def test_large_singular_and_a_hair_below():
 
 def test_large_and_badly_scaled_with_empty_rows():
     scale = [Fraction(10) ** (200 * (k % 3 - 1)) for k in range(15)]
-    core = [[a * s * t for a, t in zip(r, scale, strict=True)] for r, s in zip(integers(15, 20), scale, strict=True)]
+    core = [
+        [a * s * t for a, t in zip(r, scale, strict=True)]
+        for r, s in zip(integers(15, 20), scale, strict=True)
+    ]
     rows = [[Fraction(0)] * 16] + [[Fraction(0), *row] for row in core]
     found = check(rows)
     assert (found.definiteness, found.rank, list(found.leaf)) == ("positive semidefinite", 15, ["dominant"])

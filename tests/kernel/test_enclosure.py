@@ -61,7 +61,9 @@ def test_functions_on_intervals_contain_their_values_inside(op):
     function, low, high = FUNCTIONS[op]
 
     @settings(max_examples=25, deadline=None)
-    @given(st.tuples(*[st.fractions(low, high, max_denominator=10**3)] * 2), st.fractions(0, 1), st.booleans())
+    @given(
+        st.tuples(*[st.fractions(low, high, max_denominator=10**3)] * 2), st.fractions(0, 1), st.booleans()
+    )
     def check(ends, t, near):
         lo, hi = min(ends), max(ends)
         hi = min(hi, lo + 4) if near else hi

@@ -14,7 +14,9 @@ def refute(stated, **proof):
 
 
 def sign(kind, expression, scalars, given=(), **listings):
-    return statement({"kind": kind, "shape": [1, 1]}, {"claim": program(expression), **listings}, scalars, given)
+    return statement(
+        {"kind": kind, "shape": [1, 1]}, {"claim": program(expression), **listings}, scalars, given
+    )
 
 
 def equal(left, right, scalars, given=(), **listings):
@@ -144,7 +146,9 @@ class TestDefiniteness:
 
     def test_zero_refutes_only_the_strict_claim_and_only_off_the_origin(self):
         matrix = {"claim": program(1, "a")}
-        strict = statement({"kind": "positive_definite", "matrix": {"entries": [[0, 1], [1, 0]]}}, matrix, ["a"])
+        strict = statement(
+            {"kind": "positive_definite", "matrix": {"entries": [[0, 1], [1, 0]]}}, matrix, ["a"]
+        )
         refute(strict, values={"a": "1"}, x=["1", "-1"])
         with pytest.raises(Invalid, match="zero"):
             refute(strict, values={"a": "1"}, x=["0", "0"])
@@ -154,7 +158,9 @@ class TestDefiniteness:
 
     def test_products_with_identities_and_blocks(self):
         tree = {"blocks": [{"entries": [[0]]}, {"kron_identity": {"entries": [[0, 1], [1, 0]]}, "size": 2}]}
-        stated = statement({"kind": "positive_semidefinite", "matrix": tree}, {"claim": program(1, "a")}, ["a"])
+        stated = statement(
+            {"kind": "positive_semidefinite", "matrix": tree}, {"claim": program(1, "a")}, ["a"]
+        )
         refute(stated, values={"a": "2"}, x=["0", "1", "0", "-1", "0"])
         with pytest.raises(Invalid, match="the claim holds"):
             refute(stated, values={"a": "2"}, x=["0", "1", "0", "0", "-1"])
@@ -167,7 +173,11 @@ class TestRates:
 
     stated = statement(
         {"kind": "nonnegative", "shape": [1, 1]},
-        {"claim": program(("NEG", "Vdot")), "V": program(("SQ", "q")), "m": program(("NEG", ("*", "q", "u")))},
+        {
+            "claim": program(("NEG", "Vdot")),
+            "V": program(("SQ", "q")),
+            "m": program(("NEG", ("*", "q", "u"))),
+        },
         {"q": "state", "u": "parameter"},
         names={"Vdot": {"is": "rate", "of": ["V", 0], "law": None}},
         motion={"q": ["m", 0]},
