@@ -279,6 +279,19 @@ class TestExpansion:
         matrix = v[:4].reshape(2, 2, order="F")
         assert got == [*(matrix @ v[4:]), v[4:] @ v[4:]]
 
+    def test_calls_inside_matrix_functions_are_expanded(self) -> None:
+        x, m = ca.SX.sym("x", 2), ca.MX.sym("m", 2)
+        step = ca.Function("step", [x], [ca.vertcat(x[0] * x[1], x[0] - x[1] / 2)], {"never_inline": True})
+        twice = ca.Function("twice", [m], [step(step(m))], {"never_inline": True})
+        function = ca.Function("f", [m], [twice(m) + step.mapaccum(3)(m)[:, -1]])
+        a = b = (Fraction(3), Fraction(5))
+        a, b = (self.step(self.step(a)), self.step(self.step(self.step(b))))
+        assert interpret(function, FractionDomain(), [Fraction(3), Fraction(5)]) == [a[0] + b[0], a[1] + b[1]]
+
+    @staticmethod
+    def step(x: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
+        return x[0] * x[1], x[0] - x[1] / 2
+
     def test_structural_zeros_are_not_entries(self) -> None:
         d = ca.SX.sym("d", ca.Sparsity.diag(3))
         function = ca.Function("f", [d], [d @ d, ca.SX(2, 2), ca.diag(ca.vertcat(1, 2))])
