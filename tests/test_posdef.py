@@ -1,4 +1,4 @@
-"""Matrices from files: what is read exactly, what is refused and how, and certificates that the kernel accepts."""
+"""Matrices from files: what is read exactly, what is refused and how, and what the kernel accepts."""
 
 import json
 from fractions import Fraction

@@ -9,7 +9,7 @@ OPS = {"+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV"}
 
 
 def program(*outputs):
-    """A listing with these outputs: a name, a number, or (op, argument, ..) with arguments of the same kinds."""
+    """A listing with these outputs: each a name, a number, or (op, argument, ..) of the same."""
     code = []
 
     def emit(step):

@@ -59,7 +59,7 @@ def test_every_number_of_an_ldl_proof_counts():
 
 
 def test_numbers_of_a_dominance_proof_must_be_right():
-    """L may be any other matrix that leaves a dominant remainder, but not one far away; the scale is positive."""
+    """L may be any other matrix that leaves a dominant remainder; the scale is positive."""
     rows, leaf = leaf_of("dominant")
     prove_leaf(rows, leaf, strict=True)
     for path in places(leaf):
