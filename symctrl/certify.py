@@ -10,6 +10,7 @@ from importlib.metadata import version
 from typing import Any
 
 FORMAT = "symctrl-certificate/1"
+BUNDLE_FORMAT = "symctrl-certificates/1"
 
 
 @cache
@@ -43,4 +44,10 @@ def listing(code: Sequence[Sequence[Any]], outputs: Sequence[int]) -> dict[str, 
 def certificate(statement: Mapping[str, Any], proof: Mapping[str, Any]) -> dict[str, Any]:
     """A complete certificate of `statement` by `proof`, with the digest over everything else in it."""
     body = {"format": FORMAT, "tool": tool(), "statement": dict(statement), "proof": dict(proof)}
+    return {**body, "sha256": digest(body)}
+
+
+def bundle(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Certificates of the parts of one claim, in order, with the digest over everything else in it."""
+    body = {"format": BUNDLE_FORMAT, "tool": tool(), "parts": [dict(part) for part in parts]}
     return {**body, "sha256": digest(body)}

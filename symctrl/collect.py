@@ -16,9 +16,10 @@ from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
 from symctrl.graph import Instruction, Tape, read, unfolded
 from symctrl.literals import as_sx, is_constant_name
-from symctrl.problem import Assumption, Claim, Meaning, Output, Problem, split, star
+from symctrl.problem import ADVICE, Advice, Assumption, Claim, Meaning, Output, Problem, split, star
 from symctrl.records import Named, Rate, Record, Sum, Undefined, letters
-from symctrl.statements import Bound, Definite, Equal, Nonzero, Statement
+from symctrl.structure import lowered
+from symctrl.statements import Bound, Definite, Equal, Hint, Nonzero, Statement
 
 if TYPE_CHECKING:
     from symctrl.study import Study
@@ -44,26 +45,46 @@ class Collector:
         self._law_in_use: list[str | None] = [None]
 
     def problem(
-        self, claim: Statement, id_: str, hypotheses: Sequence[Statement] = (), matrix: Mapping[str, Any] | None = None
+        self, claim: Statement, id_: str, hypotheses: Sequence[Statement] = (), small: str | None = None
     ) -> Problem:
-        """The problem of an equation, a bound, definiteness (with its tree) or conformity, under hypotheses."""
+        """The problem of an equation, a bound, definiteness or conformity, under hypotheses.
+
+        small: the gain for all of whose small positive values the claim is made.
+        """
         exprs, kind, shape = _sides(claim)
+        matrix = None
+        if isinstance(claim, Definite):
+            matrix, exprs = lowered(claim.matrix)
         self.add("claim", exprs)
         for hypothesis in hypotheses:
             self.assume(hypothesis, "parameter")
         self._assume_what_occurs()
+        advice = self._advice(claim.hint) if isinstance(claim, Bound) and claim.hint else None
         return Problem(
             self.study.name,
             id_,
             claim.text(),
             self.listings,
-            Claim(kind, "claim", shape, matrix),
+            Claim(kind, "claim", shape, matrix, small),
             self.scalars,
             self.names,
             self.motion,
             self.laws,
             tuple(self.given),
+            advice,
         )
+
+    def _advice(self, hint: Hint) -> Advice:
+        """The hint as a listing beside the statement. Raises TypeError where it speaks of what the claim does not."""
+        exprs = [hint.times] if hint.times is not None else []
+        exprs += [*hint.squares, *(part for form in hint.forms for part in form)]
+        before = set(self.listings) | set(self.scalars) | set(self.names)
+        self.add(ADVICE, exprs)
+        new = (set(self.listings) | set(self.scalars) | set(self.names)) - before - {ADVICE}
+        if new:
+            raise TypeError(f"a hint of a proof speaks of {', '.join(sorted(new))}, which the claim does not")
+        sizes = tuple(x.shape[0] for _, x in hint.forms)
+        return Advice(self.listings.pop(ADVICE), hint.times is not None, len(hint.squares), sizes)
 
     # Listings
 
@@ -225,7 +246,7 @@ class Collector:
 
     def _assume_what_occurs(self) -> None:
         """The study's assumptions about symbols that occur; an assumption may bring a bound's own symbol with it."""
-        waiting = list(self.study.assumed)
+        waiting = [a for a in self.study.assumed if a.about != "trajectory" or self.study.on_trajectory]
         while True:
             ready = [a for a in waiting if self._occurs(a.claim)]
             if not ready:

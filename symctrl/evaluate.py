@@ -51,7 +51,7 @@ class Environment:
 
     def outputs(self, listing: str, binding: Mapping[str, str], level: int = 0, law: str | None = None) -> list[Any]:
         """All outputs of a listing at a level, with the law's inputs replaced by the law."""
-        tape = self.problem.listings[listing]
+        tape = self.problem.tape(listing)
         letters = {node for name in tape.inputs if (node := split(name)[1])}
         relevant = tuple(sorted((letter, node) for letter, node in binding.items() if letter in letters))
         key = (listing, level, law, relevant)

@@ -14,6 +14,7 @@ from symctrl.certify import canonical
 from symctrl.graph import Tape
 
 Output = tuple[str, int]  # output k of a listing
+ADVICE = "advice"
 
 
 @dataclass(frozen=True)
@@ -57,18 +58,33 @@ class Assumption:
 class Claim:
     """`kind` is equal, nonnegative, positive, positive_definite, positive_semidefinite or conforms.
 
-    matrix: for definiteness, the tree {"entries": rows of output positions}, {"kron_identity", "size"} or {"blocks"}.
+    matrix: for definiteness, the tree of docs/certificates.md. small: a gain; the claim is for its small positive values.
     """
 
     kind: str
     listing: str
     shape: tuple[int, int] = (1, 1)
     matrix: Mapping[str, Any] | None = None
+    small: str | None = None
 
     def as_json(self) -> dict[str, Any]:
         if self.matrix is not None:
-            return {"kind": self.kind, "matrix": self.matrix, "listing": self.listing}
+            small = {"small": self.small} if self.small is not None else {}
+            return {"kind": self.kind, "matrix": self.matrix, "listing": self.listing} | small
         return {"kind": self.kind, "shape": list(self.shape), "listing": self.listing}
+
+
+@dataclass(frozen=True)
+class Advice:
+    """An author's hint for a bound, as a listing beside the statement: [times], squares, then for each form P and x.
+
+    sizes: of the vectors of the forms.
+    """
+
+    tape: Tape
+    times: bool
+    squares: int
+    sizes: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -83,6 +99,13 @@ class Problem:
     motion: Mapping[str, Output] = field(default_factory=dict)
     laws: Mapping[str, Mapping[str, Output]] = field(default_factory=dict)
     given: tuple[Assumption, ...] = ()
+    advice: Advice | None = None
+
+    def tape(self, listing: str) -> Tape:
+        """The instruction list of that name; the one of the advice is called "advice"."""
+        if listing == ADVICE and self.advice is not None:
+            return self.advice.tape
+        return self.listings[listing]
 
     def statement(self, conditions: Sequence[Mapping[str, str]] = ()) -> dict[str, Any]:
         """The `statement` of a certificate."""

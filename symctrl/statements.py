@@ -7,7 +7,7 @@ whether one holds is decided elsewhere.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NoReturn
 
 from symctrl.expr import SCALAR, Expr, Liftable, Relation, lift
@@ -75,6 +75,18 @@ class Definite(Statement):
         return f"{text(self.matrix)} is {self.kind.replace('_', ' ')}"
 
 
+@dataclass(frozen=True, eq=False)
+class Hint:
+    """What an author knows of a proof of a bound: times * expr is a combination in which these squares and forms occur.
+
+    times: known to be positive. squares: scalars whose squares occur. forms: (P, x) for terms xᵀPx with P assumed definite.
+    """
+
+    times: Expr | None = None
+    squares: tuple[Expr, ...] = ()
+    forms: tuple[tuple[Expr, Expr], ...] = ()
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Bound(Statement):
     """Every component of expr is >= 0, or > 0 if strict; printed as it was written, `left relation right`."""
@@ -84,6 +96,24 @@ class Bound(Statement):
     left: Expr
     relation: Relation
     right: Expr
+    hint: Hint | None = None
+
+    def by(
+        self,
+        times: Liftable | None = None,
+        squares: Sequence[Liftable] = (),
+        forms: Sequence[tuple[Liftable, Liftable]] = (),
+    ) -> Bound:
+        """The same claim with a hint for its proof; a hint proposes and proves nothing.
+
+        Raises Nonconforming for a form (P, x) whose shapes do not go together.
+        """
+        pairs = tuple((lift(matrix), lift(x)) for matrix, x in forms)
+        for matrix, x in pairs:
+            if matrix.shape != (x.shape[0], x.shape[0]) or x.shape[1] != 1:
+                raise mismatch("form (P, x)", matrix, x)
+        flat = tuple(entry for square in squares for entry in _components(lift(square)))
+        return replace(self, hint=Hint(None if times is None else lift(times), flat, pairs))
 
     @property
     def kind(self) -> str:
@@ -193,6 +223,30 @@ class SufficientlySmall(Statement):
         return f"{self.claim.text()} for every sufficiently small {text(self.gain)} > 0"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class AtValues(Statement):
+    """The claim at the exact values that the study gives its parameters."""
+
+    claim: Statement
+
+    @property
+    def kind(self) -> str:
+        return self.claim.kind
+
+    def latex(self) -> str:
+        return rf"{self.claim.latex()} \text{{ at the values of the study}}"
+
+    def text(self) -> str:
+        return f"{self.claim.text()} at the values of the study"
+
+
+def at_values(claim: Statement) -> AtValues:
+    """The claim with every parameter that has an exact value replaced by it. Raises TypeError."""
+    if not isinstance(claim, Statement):
+        raise TypeError(f"at_values takes a claim, not {claim!r}; write at_values(positive_definite(M))")
+    return AtValues(claim)
+
+
 def equal(a: Liftable, b: Liftable) -> Equal:
     """The claim a = b for two expressions of the same shape. Raises Nonconforming."""
     left, right = _lifted(a, "equal"), _lifted(b, "equal")
@@ -299,6 +353,10 @@ def sufficiently_small(gain: Expr, claim: Plain) -> SufficientlySmall:
 def conforms(expr: Liftable) -> Conforms:
     """The claim that an expression is well formed."""
     return Conforms(_lifted(expr, "conforms"))
+
+
+def _components(x: Expr) -> list[Expr]:
+    return [x] if x.shape == SCALAR else list(x)
 
 
 def _is_zero(x: Expr) -> bool:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -78,6 +79,7 @@ class Study:
         self.of_fleet: Fleet | None = None
         self.instance = Instance()
         self.graph: str | None = None
+        self.on_trajectory = False
 
     # Symbols
 
@@ -277,6 +279,25 @@ class Study:
         base = scalar.partition("[")[0]
         declared = self.symbols[base].values.get(scalar) if base in self.symbols else None
         return current().values.get(scalar, declared)
+
+    def trajectory_assumptions(self) -> list[Assumed]:
+        """What the study assumes of the whole trajectory."""
+        return [a for a in self.assumed if a.about == "trajectory"]
+
+    @contextmanager
+    def along_trajectory(self, assumed: bool) -> Iterator[None]:
+        """Inside, the assumptions about the trajectory count as given."""
+        before = self.on_trajectory
+        self.on_trajectory = assumed
+        try:
+            yield
+        finally:
+            self.on_trajectory = before
+
+    def all_values(self) -> dict[str, Fraction]:
+        """The exact values of all parameters that have one, in the instance at hand."""
+        declared = {name: v for s in self.symbols.values() for name, v in s.values.items()}
+        return declared | {name: v for name, v in current().values.items()}
 
     def _checked_value(self, key: str, text: str) -> Fraction:
         from difflib import get_close_matches

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from symctrl.domains.algebra_latex import value_latex
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.exact import ExactDomain
 from symctrl.domains.field import Exact, Field, Generator, OutOfGenerators, Poly
@@ -61,6 +62,14 @@ class Session:
     def at(self, of: Output, binding: dict[str, str]) -> Exact:
         value: Exact = self.environment.output(of, binding)
         return value
+
+    def proof(self, kind: str, **more: Any) -> dict[str, Any]:
+        """The proof for the kernel, from what was evaluated."""
+        return {"kind": kind} | self.domain.proof_json() | more
+
+    def latex(self, value: Exact) -> str:
+        """The value over one denominator in LaTeX."""
+        return value_latex(self.domain.field, self.domain.simplified(value))
 
     def _sum(self, name: str, level: int, order: int, law: str | None) -> Any:
         if level > 0:

@@ -252,16 +252,27 @@ class ExactDomain(Domain[Exact]):
         e = self.operation("EXP")(a)
         return self.scaled(self.add_(e, self.scaled(self.inv_(e), Fraction(side))), Fraction(1, 2))
 
-    def hints_json(self) -> dict[str, Any]:
-        """Each distinct inverse and opaque result once, in the order of first use."""
-        inverses: list[Any] = []
-        for c, key in self.recording.inverses:
-            entry = [str(c), [list(pair) for pair in key]]
-            if entry not in inverses:
-                inverses.append(entry)
-        results: list[Any] = []
-        for op, value in self.recording.results:
-            entry = [op, self.field.value_json(value)]
-            if entry not in results:
-                results.append(entry)
-        return {"inverses": inverses, "results": results}
+    def proof_json(self) -> dict[str, Any]:
+        """Generators, the factors that something was divided by, and each distinct inverse and opaque result once."""
+        divided = {k for _, key in self.recording.inverses for k, _ in key}
+        divided |= {k for _, value in self.recording.results for key in value for k, _ in key}
+        place = {k: n for n, k in enumerate(sorted(divided))}
+        inverses = [
+            {"inverse": [str(c), [[place[k], e] for k, e in key]]} for c, key in self.recording.inverses
+        ]
+        results = [
+            {"op": op, "is": self.field.value_json(value, place)} for op, value in self.recording.results
+        ]
+        return {
+            "generators": self.field.generators_json(place),
+            "factors": [self.field.json(self.field.factors[k]) for k in sorted(divided)],
+            "hints": _distinct(inverses) + _distinct(results),
+        }
+
+
+def _distinct(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    kept: list[dict[str, Any]] = []
+    for entry in entries:
+        if entry not in kept:
+            kept.append(entry)
+    return kept

@@ -121,13 +121,15 @@ class Field:
             result.append(term)
         return result
 
-    def value_json(self, value: Exact) -> list[Any]:
-        return [[[list(pair) for pair in key], self.json(p)] for key, p in sorted(value.items())]
+    def value_json(self, value: Exact, place: Mapping[int, int]) -> list[Any]:
+        """The VALUE form, with factors by their place in the proof."""
+        groups = [([[place[k], e] for k, e in key], self.json(p)) for key, p in value.items()]
+        return [[key, p] for key, p in sorted(groups, key=lambda group: group[0])]
 
-    def generators_json(self) -> list[dict[str, Any]]:
-        return [self._generator_json(g) for g in self.generators]
+    def generators_json(self, place: Mapping[int, int]) -> list[dict[str, Any]]:
+        return [self._generator_json(g, place) for g in self.generators]
 
-    def _generator_json(self, g: Generator) -> dict[str, Any]:
+    def _generator_json(self, g: Generator, place: Mapping[int, int]) -> dict[str, Any]:
         match g.kind:
             case "free":
                 return {"free": g.name}
@@ -138,15 +140,15 @@ class Field:
             case "sign":
                 return {"sign": self.json(g.argument), "abs": g.partner}
             case "cos":
-                return {"cos": self.value_json(g.argument)}
+                return {"cos": self.value_json(g.argument, place)}
             case "sin":
-                return {"sin": self.value_json(g.argument), "cos": g.partner}
+                return {"sin": self.value_json(g.argument, place), "cos": g.partner}
             case "exp":
-                return {"exp": self.value_json(g.argument)}
+                return {"exp": self.value_json(g.argument, place)}
             case "power":
-                return {"power": self.json(g.argument), "exponent": self.value_json(g.exponent)}
+                return {"power": self.json(g.argument), "exponent": self.value_json(g.exponent, place)}
             case _:
-                return {"function": g.name, "of": [self.value_json(a) for a in g.argument]}
+                return {"function": g.name, "of": [self.value_json(a, place) for a in g.argument]}
 
 
 def merged(groups: Mapping[Key, Poly] | Sequence[tuple[Key, Poly]]) -> Exact:

@@ -1,0 +1,133 @@
+"""From a statement to its verdict: hypotheses, equivalences and lists are reduced to single problems."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from symctrl.certify import bundle
+from symctrl.collect import Collector
+from symctrl.decide.decision import decide
+from symctrl.kernel.check import check_text
+from symctrl.problem import Problem
+from symctrl.statements import AtValues, Equivalent, Implies, Statement, SufficientlySmall
+from symctrl.verdict import Condition, Outcome, Verdict
+
+if TYPE_CHECKING:
+    from symctrl.store import Store
+    from symctrl.study import Study
+
+
+@dataclass(frozen=True)
+class Part:
+    """One problem of a claim, and the role that it plays in it."""
+
+    problem: Problem
+    role: str = ""
+
+
+def parts(study: Study, claim: Any, id_: str, values: Mapping[str, Fraction] | None = None) -> list[Part]:
+    """The problems that a claim consists of. Raises UndefinedLetter, Nonconforming, TypeError."""
+    if isinstance(claim, list | tuple):
+        if not claim:
+            raise TypeError(f"{id_}: an empty list claims nothing")
+        return [part for one in claim for part in parts(study, one, id_, values)]
+    if isinstance(claim, AtValues):
+        return parts(study, claim.claim, id_, study.all_values())
+    if isinstance(claim, Equivalent):
+        whole = [
+            Part(_problem(study, claim.claim, id_, claim.conditions, values), "the condition is sufficient")
+        ]
+        for condition in claim.conditions:
+            whole.append(Part(_problem(study, condition, id_, [claim.claim], values), "the condition is necessary"))
+        return whole
+    if isinstance(claim, Implies):
+        return [Part(_problem(study, claim.claim, id_, claim.hypotheses, values))]
+    if isinstance(claim, SufficientlySmall):
+        return [Part(_problem(study, claim.claim, id_, (), values, small=claim.gain.args[0]))]
+    if not isinstance(claim, Statement):
+        raise TypeError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
+    return [Part(_problem(study, claim, id_, (), values))]
+
+
+def verdict_of(found: Sequence[Part], store: Store | None) -> Verdict:
+    """The verdict of a claim from those of its parts: refuted if one is, proved if all are."""
+    verdicts = [remembered(part.problem, store) for part in found]
+    if len(verdicts) == 1:
+        return verdicts[0]
+    for outcome in (Outcome.REFUTED, Outcome.ILL_FORMED, Outcome.UNDECIDED):
+        for part, verdict in zip(found, verdicts, strict=True):
+            if verdict.outcome == outcome:
+                role = f"{part.role} fails: " if part.role else f"{part.problem.text}: "
+                return _with_reason(verdict, role + verdict.reason)
+    conditions = tuple(dict.fromkeys(c for verdict in verdicts for c in verdict.conditions))
+    made = bundle([verdict.certificate for verdict in verdicts if verdict.certificate is not None])
+    methods = ", ".join(dict.fromkeys(verdict.method for verdict in verdicts))
+    return Verdict(Outcome.PROVED, f"all {len(verdicts)} parts are proved", methods, conditions, made)
+
+
+def remembered(problem: Problem, store: Store | None, decider: Callable[[Problem], Verdict] = decide) -> Verdict:
+    """The verdict, from the store if it is there and the kernel accepts its certificate again."""
+    kept = store.get(problem.sha256) if store is not None else None
+    if kept is not None and kept["certificate"] is not None:
+        known = _read(kept)
+        if check_text(json.dumps(known.certificate)).status == "valid" and _same_statement(problem, known):
+            return known
+    verdict = decider(problem)
+    if store is not None:
+        store.put(problem.sha256, _written(verdict))
+    return verdict
+
+
+def _problem(
+    study: Study,
+    claim: Statement,
+    id_: str,
+    hypotheses: Sequence[Statement],
+    values: Mapping[str, Fraction] | None,
+    small: str | None = None,
+) -> Problem:
+    return Collector(study, values).problem(claim, id_, hypotheses, small)
+
+
+def _same_statement(problem: Problem, known: Verdict) -> bool:
+    """Is the certificate about this very problem?"""
+    assert known.certificate is not None
+    stated = dict(known.certificate["statement"])
+    stated["conditions"] = []
+    return stated == json.loads(json.dumps(problem.statement()))
+
+
+def _with_reason(verdict: Verdict, reason: str) -> Verdict:
+    from dataclasses import replace
+
+    return replace(verdict, reason=reason)
+
+
+def _written(verdict: Verdict) -> dict[str, Any]:
+    return {
+        "outcome": verdict.outcome.value,
+        "reason": verdict.reason,
+        "method": verdict.method,
+        "conditions": [[c.kind, c.of] for c in verdict.conditions],
+        "certificate": verdict.certificate,
+        "witness": verdict.witness,
+        "residual": verdict.residual,
+    }
+
+
+def _read(kept: Mapping[str, Any]) -> Verdict:
+    return Verdict(
+        Outcome(kept["outcome"]),
+        kept["reason"],
+        kept["method"],
+        tuple(Condition(kind, of) for kind, of in kept["conditions"]),
+        kept["certificate"],
+        kept["witness"],
+        kept["residual"],
+    )
+
+

@@ -1,0 +1,240 @@
+"""A sign by a combination: a value as a sum of positive multiples of products of assumptions and squares.
+
+The candidates are assumptions, their pairwise products and monomials, each times squares; a linear programme in
+floating point chooses among them, and the multipliers are solved for exactly. A quadratic form in the symbols of
+unknown sign is completed to squares by its exact LDLᵀ.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations, combinations_with_replacement
+from typing import Any
+
+import flint
+import numpy as np
+
+from symctrl.decide.definiteness import decide_matrix
+from symctrl.decide.session import Session
+from symctrl.domains.field import Exact, Poly
+
+MAX_CANDIDATES = 1500
+MAX_MONOMIALS = 400
+TINY = 1e-9
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A nonnegative polynomial: the product of assumptions (by index) or known polynomials, times squares."""
+
+    value: Poly
+    given: tuple[Any, ...]
+    squares: tuple[Poly, ...]
+
+
+@dataclass(frozen=True)
+class Known:
+    """The author's advice as exact polynomials: a positive multiplier, squares, and forms that are not negative."""
+
+    times: Poly | None = None
+    squares: tuple[Poly, ...] = ()
+    forms: tuple[tuple[Any, Poly], ...] = ()
+
+
+def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict[str, Any] | None:
+    """The entry of a combination for one value, with the author's multiplier where there is one; None if none is found."""
+    if known.times is None:
+        terms = terms_of(session, value, strict, known)
+        return None if terms is None else {"terms": terms}
+    scaled = session.domain.polynomial(session.domain.field.normal(carrier(session, value) * known.times))
+    terms = terms_of(session, scaled, strict, known)
+    return None if terms is None else {"terms": terms, "times": session.domain.field.json(known.times)}
+
+
+def terms_of(session: Session, value: Exact, strict: bool, known: Known | None = None) -> list[list[Any]] | None:
+    """The terms of a combination that proves the value nonnegative (positive if strict), or None."""
+    known = known or Known()
+    p = carrier(session, value)
+    for form in (p, session.domain.field.normal(p)):
+        sign = session.domain.signs.of(form)
+        if sign == "positive" or (sign == "nonnegative" and not strict):
+            return [["1", [session.domain.field.json(form)], []]] if not form.is_zero() else []
+    p = session.domain.field.normal(p)
+    if p.is_zero():
+        return None if strict else []
+    found = _by_squares(session, p) if not strict else None
+    return found or _by_programme(session, p, strict, known)
+
+
+def carrier(session: Session, value: Exact) -> Poly:
+    """A polynomial with the sign of the value: the numerator times the factors of odd exponent below it."""
+    domain = session.domain
+    numerator, key = domain.together(value)
+    for k, e in key:
+        if e % 2:
+            numerator = numerator * domain.field.factors[k]
+    return numerator
+
+
+def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
+    """p as a quadratic form in monomials of degree at most one, if its exact LDLᵀ has no negative pivot."""
+    field = session.domain.field
+    if p.total_degree() > 2:
+        return None
+    variables = sorted(field.occurring(p))
+    basis = [field.polynomial(1), *(field.variable(k) for k in variables)]
+    gram = [[Fraction(0)] * len(basis) for _ in basis]
+    place = {k: n + 1 for n, k in enumerate(variables)}
+    for exponents, c in p.terms():
+        at = [place[field.size - 1 - v] for v, e in enumerate(exponents) for _ in range(int(e))]
+        i, j = (at + [0, 0])[:2]
+        number = Fraction(int(c.p), int(c.q))
+        gram[i][j] += number / 2
+        gram[j][i] += number / 2
+    answer = decide_matrix(gram)
+    leaf = answer.leaf
+    if leaf is None or "ldl" not in leaf:
+        return None
+    lower, diagonal = leaf["ldl"]["lower"], leaf["ldl"]["diagonal"]
+    result = []
+    for k, d in enumerate(diagonal):
+        if Fraction(d) == 0:
+            continue
+        square = field.polynomial(0)
+        for r in range(k, len(basis)):
+            square = square + basis[r] * field.polynomial(Fraction(lower[r][k])).leading_coefficient() if Fraction(lower[r][k]) else square
+        result.append([str(d), [], [field.json(square)]])
+    return result
+
+
+def _by_programme(session: Session, p: Poly, strict: bool, known: Known) -> list[list[Any]] | None:
+    from scipy.optimize import linprog
+
+    field = session.domain.field
+    candidates = _candidates(session, p, known)
+    monomials: dict[tuple[int, ...], int] = {}
+    columns = []
+    for candidate in candidates:
+        columns.append({monomials.setdefault(tuple(map(int, e)), len(monomials)): c for e, c in candidate.value.terms()})
+    target = {monomials.setdefault(tuple(map(int, e)), len(monomials)): c for e, c in p.terms()}
+    if not columns or len(monomials) > 20 * MAX_MONOMIALS:
+        return None
+    matrix = np.zeros((len(monomials), len(columns)))
+    for n, column in enumerate(columns):
+        for m, c in column.items():
+            matrix[m, n] = float(Fraction(int(c.p), int(c.q)))
+    right = np.zeros(len(monomials))
+    for m, c in target.items():
+        right[m] = float(Fraction(int(c.p), int(c.q)))
+    sure = [_is_sure(session, candidate) for candidate in candidates]
+    cost = np.array([-1.0 if strict and s else 1e-3 for s in sure])
+    bounds = [(0, 1e6)] * len(columns)
+    answer = linprog(cost, A_eq=matrix, b_eq=right, bounds=bounds, method="highs")
+    if answer.status != 0:
+        return None
+    chosen = [n for n in range(len(columns)) if answer.x[n] > TINY]
+    weights = _exact_weights([columns[n] for n in chosen], target)
+    if weights is None or any(w < 0 for w in weights):
+        return None
+    if strict and not any(w > 0 and sure[n] for n, w in zip(chosen, weights, strict=True)):
+        return None
+    return [
+        [str(w), list(candidates[n].given), [field.json(s) for s in candidates[n].squares]]
+        for n, w in zip(chosen, weights, strict=True)
+        if w
+    ]
+
+
+def _exact_weights(columns: Sequence[dict[int, Any]], target: dict[int, Any]) -> list[Fraction] | None:
+    """The exact solution of sum w_n column_n = target, if there is one."""
+    if not columns:
+        return [] if not target else None
+    rows = sorted({m for column in columns for m in column} | set(target))
+    system = flint.fmpq_mat(
+        len(rows), len(columns) + 1, [c.get(m, flint.fmpq(0)) for m in rows for c in (*columns, target)]
+    )
+    reduced, rank = system.rref()
+    weights = [Fraction(0)] * len(columns)
+    for r in range(rank):
+        pivot = next(c for c in range(len(columns) + 1) if reduced[r, c] != 0)
+        if pivot == len(columns):
+            return None
+        last = reduced[r, len(columns)]
+        weights[pivot] = Fraction(int(last.p), int(last.q))
+    return weights
+
+
+def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
+    """The author's forms and squares with every product of assumptions first, then monomials and their pairs."""
+    field = session.domain.field
+    one = field.polynomial(1)
+    facts = [(one, ())] + [(q, (k,)) for k, q in _facts(session)]
+    products = list(facts)
+    products += [(a * b, (*x, *y)) for (a, x), (b, y) in combinations_with_replacement(facts[1:], 2)]
+    products += [(a * b * c, (*x, *y, *z)) for (a, x), (b, y), (c, z) in combinations(facts[1:], 3) if len(facts) < 10]
+    found = []
+    degree = p.total_degree()
+    for form, value in known.forms:
+        for product, given in products:
+            found.append(Candidate(field.normal(product * value), (*given, form), ()))
+    for product, given in products:
+        for square in [*known.squares, *_squares(session, p)]:
+            if product.total_degree() + 2 * square.total_degree() > degree + 2:
+                continue
+            value = field.normal(product * square * square)
+            squares = () if square == one else (square,)
+            found.append(Candidate(value, given, squares))
+            if len(found) >= MAX_CANDIDATES:
+                return found
+    return found
+
+
+def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
+    """The nonnegative assumptions at node i, by index; then opaque generators that are not negative, by POLY."""
+    field = session.domain.field
+    for k, assumption in enumerate(session.problem.given):
+        if assumption.kind in ("positive", "nonnegative"):
+            yield k, carrier(session, session.at(assumption.of[0], {"i": "i"}))
+    for k, g in enumerate(field.generators):
+        if g.kind in ("root", "abs", "exp", "power"):
+            yield field.json(field.variable(k)), field.variable(k)
+
+
+def _squares(session: Session, p: Poly) -> list[Poly]:
+    """Monomials whose squares may occur, their sums and differences in pairs."""
+    field = session.domain.field
+    variables = [field.variable(k) for k in sorted(field.occurring(p))]
+    singles = [field.polynomial(1), *variables]
+    pairs = [a + s * b for a, b in combinations(variables, 2) for s in (1, -1)] if len(variables) <= 8 else []
+    products = [a * b for a, b in combinations_with_replacement(variables, 2)] if p.total_degree() > 3 else []
+    return singles + pairs + products
+
+
+def _is_sure(session: Session, candidate: Candidate) -> bool:
+    kinds = [
+        session.problem.given[g].kind == "positive" if isinstance(g, int) else False for g in candidate.given
+    ]
+    return all(kinds) and not candidate.squares
+
+
+
+
+def form_of(session: Session, matrix: Sequence[Exact], x: Sequence[Exact]) -> tuple[dict[str, Any], Poly] | None:
+    """xᵀPx for a P (column by column) that is assumed to be definite, as a term's factor and as a polynomial."""
+    domain, n = session.domain, len(x)
+    for k, assumption in enumerate(session.problem.given):
+        if assumption.size != n or not assumption.kind.startswith("positive_"):
+            continue
+        values = [session.at(of, {"i": "i"}) for of in assumption.of]
+        if not all(domain.is_zero(domain.sub_(a, b)) for a, b in zip(matrix, values, strict=True)):
+            continue
+        total: Exact = {}
+        for r in range(n):
+            for c in range(n):
+                total = domain.add_(total, domain.mul_(domain.mul_(x[r], values[r + n * c]), x[c]))
+        if set(domain.simplified(total)) <= {()} and all(set(domain.simplified(e)) <= {()} for e in x):
+            vector = [domain.field.json(domain.simplified(e).get((), domain.field.polynomial(0))) for e in x]
+            return {"given": k, "vector": vector}, domain.simplified(total).get((), domain.field.polynomial(0))
+    return None

@@ -1,0 +1,84 @@
+"""One problem, one verdict: a proof that the kernel accepts, a witness that it accepts, or what was tried."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from symctrl.certify import certificate
+from symctrl.decide import bound, definite, equation
+from symctrl.decide.attempt import Attempt
+from symctrl.decide.points import NoPoint
+from symctrl.domains.domain import Unsupported
+from symctrl.domains.opaque import NowhereDefined
+from symctrl.domains.tangent import NotDifferentiable
+from symctrl.evaluate import NoRate
+from symctrl.kernel.check import check_text, needed_conditions
+from symctrl.problem import Problem
+from symctrl.verdict import Condition, Outcome, Verdict
+
+Decider = Callable[[Problem], Attempt]
+
+DECIDERS: Mapping[str, Decider] = {
+    "equal": equation.attempt,
+    "conforms": lambda problem: Attempt(proof={"kind": "conforms"}, method="conforms"),
+    "nonnegative": bound.attempt,
+    "positive": bound.attempt,
+    "positive_definite": definite.attempt,
+    "positive_semidefinite": definite.attempt,
+}
+
+
+class KernelDisagrees(RuntimeError):  # noqa: N818
+    """The kernel does not accept what a decider found: an error of the tool, to be reported."""
+
+
+def decide(problem: Problem) -> Verdict:
+    """The verdict of one problem. Raises KernelDisagrees, an error of the tool."""
+    try:
+        found = DECIDERS[problem.claim.kind](problem)
+    except NowhereDefined as error:
+        return Verdict(Outcome.ILL_FORMED, str(error))
+    except NoRate as error:
+        return Verdict(Outcome.ILL_FORMED, str(error))
+    except (Unsupported, NotDifferentiable) as error:
+        return Verdict(Outcome.UNDECIDED, str(error), "exact domain")
+    except NoPoint as error:
+        return Verdict(Outcome.UNDECIDED, f"not proved, and {error}")
+    if found.proof is not None:
+        return _proved(problem, found)
+    if found.witness is not None:
+        return _refuted(problem, found)
+    return Verdict(Outcome.UNDECIDED, found.reason, found.method, residual=found.residual)
+
+
+def _proved(problem: Problem, found: Attempt) -> Verdict:
+    assert found.proof is not None
+    draft = certificate(problem.statement(), found.proof)
+    conditions = needed_conditions(json.dumps(draft))
+    made = certificate(problem.statement([{"kind": c.kind, "of": c.of} for c in conditions]), found.proof)
+    _accepted(problem, made)
+    kept = tuple(Condition(c.kind, c.of) for c in conditions)
+    return Verdict(Outcome.PROVED, found.reason, found.method, kept, made)
+
+
+def _refuted(problem: Problem, found: Attempt) -> Verdict:
+    assert found.witness is not None
+    made = certificate(problem.statement(), found.witness.proof(problem))
+    _accepted(problem, made)
+    return Verdict(
+        Outcome.REFUTED,
+        found.witness.says,
+        "exact witness",
+        (),
+        made,
+        found.witness.values_json(problem),
+        found.residual,
+    )
+
+
+def _accepted(problem: Problem, made: Mapping[str, Any]) -> None:
+    answer = check_text(json.dumps(made))
+    if answer.status != "valid":
+        raise KernelDisagrees(f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}")

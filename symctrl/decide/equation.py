@@ -1,0 +1,43 @@
+"""Equations: proved in the exact domain, refuted by a point."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symctrl.decide.attempt import Attempt
+from symctrl.decide.identity import residuals, vanishes
+from symctrl.decide.session import Session, exactly
+from symctrl.decide.witness import refute
+from symctrl.domains.domain import Unsupported
+from symctrl.problem import Problem
+
+METHOD = "exact domain"
+
+
+def attempt(problem: Problem) -> Attempt:
+    """A proof or a witness of left = right. Raises what the exact domain and the search for points raise."""
+    try:
+        proof, residual = exactly(problem, _proof)
+    except Unsupported as error:
+        found = refute(problem)
+        if found is None:
+            raise
+        return Attempt(witness=found, residual=None, reason=str(error))
+    if proof is not None:
+        return Attempt(proof=proof, reason="left and right have the same normal form", method=METHOD)
+    found = refute(problem)
+    if found is not None:
+        return Attempt(witness=found, residual=residual, method=METHOD)
+    return Attempt(
+        reason="left minus right is not zero by the known relations, and no point was found where it differs",
+        method=METHOD,
+        residual=residual,
+    )
+
+
+def _proof(session: Session) -> tuple[dict[str, Any] | None, str | None]:
+    values = residuals(session)
+    wrong = [value for value in values if not vanishes(session, value)]
+    if not wrong:
+        return session.proof("identity"), None
+    return None, session.latex(wrong[0])

@@ -1,0 +1,90 @@
+"""Second evidence and negative twins: what stands beside a verdict and never makes one.
+
+Every equation is also evaluated in floating point at random admissible points, with its rates; the residual is relative to
+the largest intermediate value. The twins of an equation are the claims in which one addend as written is missing.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from symctrl.collect import Collector
+from symctrl.decide.identity import vanishes
+from symctrl.decide.place import evaluation
+from symctrl.decide.points import NoPoint, points
+from symctrl.decide.session import Session, exactly
+from symctrl.domains.domain import Unsupported
+from symctrl.domains.floating import FloatDomain
+from symctrl.domains.opaque import NowhereDefined
+from symctrl.expr import Expr, terms
+from symctrl.problem import Problem
+from symctrl.records import Rate
+from symctrl.rows import Numeric, Twins
+from symctrl.statements import Conforms, Equal
+from symctrl.text import text
+
+if TYPE_CHECKING:
+    from symctrl.study import Study
+
+SAMPLES = 12
+TOLERANCE = 1e-9
+
+
+def numeric(problem: Problem) -> Numeric | None:
+    """The largest relative residual of an equation over random admissible points; None where no point is found."""
+    worst, count = 0.0, 0
+    try:
+        for place in points(problem, seed=2):
+            domain = FloatDomain()
+            outputs = evaluation(problem, place, domain).outputs(problem.claim.listing, place.binding)
+            half = len(outputs) // 2
+            difference = max(abs(float(a) - float(b)) for a, b in zip(outputs[:half], outputs[half:], strict=True))
+            scale = float(np.max(domain.largest))
+            if np.isfinite(difference):
+                worst = max(worst, difference / scale if scale else difference)
+                count += 1
+            if count >= SAMPLES:
+                break
+    except (NoPoint, Unsupported, ValueError):
+        return Numeric(count, worst) if count else None
+    return Numeric(count, worst)
+
+
+def twins(study: Study, claim: Equal, id_: str) -> Twins:
+    """One twin for each addend as written on the sides that the author typed, and one for the sides being the same."""
+    addends = [t for side in (claim.left, claim.right) if not _is_rate(side) for t in terms(side) if not _is_zero(t)]
+    if len(addends) == 1 and not any(map(_is_rate, (claim.left, claim.right))) and _is_zero(claim.right):
+        addends = []
+    still_true = [f"without {text(t)}" for t, gone in zip(addends, _vanishing(study, addends, id_), strict=True) if gone]
+    problem = Collector(study).problem(claim, id_)
+    outputs = problem.listings["claim"].outputs
+    half = len(outputs) // 2
+    if outputs[:half] == outputs[half:]:
+        still_true.append("both sides are the same graph: nothing is claimed")
+    return Twins(len(addends) + 1, tuple(still_true))
+
+
+def _vanishing(study: Study, addends: Sequence[Expr], id_: str) -> list[bool]:
+    """Which addends are zero on the whole domain, so that leaving them out changes nothing."""
+    return [_vanishes(Collector(study).problem(Conforms(t), id_)) for t in addends]
+
+
+def _vanishes(problem: Problem) -> bool:
+    def work(session: Session) -> bool:
+        return all(vanishes(session, value) for value in session.claim())
+
+    try:
+        return exactly(problem, work)
+    except (Unsupported, NowhereDefined):
+        return False
+
+
+def _is_rate(side: Expr) -> bool:
+    return side.op == "deferred" and isinstance(side.args[0], Rate)
+
+
+def _is_zero(term: Expr) -> bool:
+    return all(entry == 0 for entry in term.entries)

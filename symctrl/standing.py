@@ -1,0 +1,118 @@
+"""Whether a verdict stands: its conditions vouched for, and everything that it rests on standing too."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from symctrl.decide.claims import parts, verdict_of
+from symctrl.expr import Nonconforming
+from symctrl.rows import Discharged, Given, Row
+from symctrl.verdict import Outcome, Verdict
+from symctrl.written import StudyError
+
+if TYPE_CHECKING:
+    from symctrl.study import Study
+
+
+def with_conditions(study: Study, claim: Any, verdict: Verdict, row: Row) -> Row:
+    """The row with each condition of its proof and who vouches for it.
+
+    An assumption about the trajectory that the study makes, or the exact values of the parameters: found by deciding the
+    claim again with these and seeing which conditions are gone.
+    """
+    if not verdict.conditions:
+        return row
+    assumed = study.trajectory_assumptions()
+    under = _conditions(study, claim, row.id, None, along=True) if assumed else None
+    at_values = _conditions(study, claim, row.id, study.all_values(), along=bool(assumed))
+    discharged = []
+    used = False
+    for condition in verdict.conditions:
+        by = None
+        if under is not None and str(condition) not in under:
+            by, used = "assumed along the trajectory", True
+        elif at_values is not None and not _mentions(at_values, str(condition)):
+            by = "the exact values of the study"
+        discharged.append(Discharged(str(condition), by))
+    given = row.given
+    if used:
+        given += tuple(Given(a.claim.text(), "trajectory") for a in assumed)
+    return replace(row, conditions=tuple(discharged), given=given, conditional=used)
+
+
+def settle(study: Study, rows: Sequence[Row], complete: bool) -> list[Row]:
+    """The rows with `stands` and `settled`. complete: all rows of the study are here. Raises StudyError."""
+    known = {row.id: row for row in rows}
+    standing: dict[str, bool] = {}
+    conditional: dict[str, bool] = {}
+    for row in rows:
+        _stands(row.id, known, standing, conditional, complete)
+    done = [replace(r, stands=standing[r.id], conditional=conditional[r.id]) for r in rows]
+    return [replace(row, settled=_settled(study, row, done, complete)) for row in done]
+
+
+def _stands(
+    id_: str, known: dict[str, Row], standing: dict[str, bool], conditional: dict[str, bool], complete: bool
+) -> None:
+    if id_ in standing:
+        return
+    row = known[id_]
+    standing[id_], conditional[id_] = False, row.conditional
+    own = row.verdict == "proved" and all(c.by is not None for c in row.conditions)
+    for below in row.rests_on:
+        at = below if below in known else next((k for k in known if k.partition("[")[0] == below), None)
+        if at is None:
+            own = own and not complete
+            continue
+        _stands(at, known, standing, conditional, complete)
+        corrected = [r.id for r in known.values() if r.corrects == below]
+        for other in corrected:
+            _stands(other, known, standing, conditional, complete)
+        own = own and (standing[at] or any(standing[c] for c in corrected))
+        conditional[id_] = conditional[id_] or conditional[at]
+    standing[id_] = own
+
+
+def _settled(study: Study, row: Row, rows: Sequence[Row], complete: bool) -> bool:
+    if row.form in ("corrected", "claimed"):
+        return row.stands
+    if row.stands:
+        return True
+    base = row.id.partition("[")[0]
+    corrections = [r for r in rows if r.corrects == base]
+    siblings = [r for r in rows if r.id != row.id and r.id.partition("[")[0] == base]
+    if row.verdict in ("refuted", "ill-formed"):
+        covered = any(r.stands for r in corrections + siblings) or base in study.rejections
+        return covered or (not complete and not corrections)
+    return False
+
+
+def refuse_needless(study: Study, rows: Sequence[Row]) -> None:
+    """Raises StudyError where a corrected statement's printed one is proved."""
+    by_base: dict[str, list[Row]] = {}
+    for row in rows:
+        by_base.setdefault(row.id.partition("[")[0], []).append(row)
+    for row in rows:
+        printed = by_base.get(row.corrects or "", [])
+        if printed and all(p.stands for p in printed) and study.entries[printed[0].id.partition("[")[0]].form == "printed":
+            raise StudyError(f"{row.id} corrects {row.corrects}, which is proved as printed: there is nothing to correct")
+
+
+def _conditions(
+    study: Study, claim: Any, id_: str, values: dict[str, Fraction] | None, along: bool
+) -> list[str] | None:
+    """The conditions of the claim decided under the trajectory assumptions, or at exact values; None if not proved so."""
+    try:
+        with study.along_trajectory(along):
+            verdict = verdict_of(parts(study, claim, id_, values), None)
+    except Nonconforming:
+        return None
+    return [str(c) for c in verdict.conditions] if verdict.outcome is Outcome.PROVED else None
+
+
+def _mentions(remaining: list[str], condition: str) -> bool:
+    """At exact values a condition may be left under another form; any that is left keeps all of them open."""
+    return bool(remaining) or condition in remaining

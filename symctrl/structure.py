@@ -1,0 +1,60 @@
+"""The structure of a matrix as its author wrote it: Kronecker products with an identity, blocks, congruences.
+
+Definiteness is decided on the parts; nothing is expanded.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symctrl.expr import Expr
+from symctrl.records import Named, fingerprint
+
+Tree = dict[str, Any]
+
+
+def lowered(matrix: Expr) -> tuple[Tree, list[Expr]]:
+    """The tree of a claim of definiteness, and the expressions whose entries, one after another, its leaves count."""
+    parts: list[Expr] = []
+    return _tree(matrix, parts), parts
+
+
+def _tree(matrix: Expr, parts: list[Expr]) -> Tree:
+    matrix = _opened(matrix)
+    if matrix.op == "kron" and _opened(matrix.args[1]).op == "eye":
+        return {"kron_identity": _tree(matrix.args[0], parts), "size": matrix.args[1].shape[0]}
+    if matrix.op == "diagonal" and all(part.shape[0] == part.shape[1] for part in matrix.args):
+        return {"blocks": [_tree(part, parts) for part in matrix.args]}
+    found = _congruence(matrix)
+    if found is not None:
+        factor, middle = found
+        return {"congruence": _tree(middle, parts), "factor": _entries(factor, parts)}
+    return {"entries": _entries(matrix, parts)}
+
+
+def _congruence(matrix: Expr) -> tuple[Expr, Expr] | None:
+    """C and P where the matrix is written Cᵀ P C."""
+    if matrix.op != "matmul" or matrix.args[0].op != "matmul":
+        return None
+    (left, middle), right = matrix.args[0].args, matrix.args[1]
+    if left.op == "transpose" and fingerprint(left.args[0]) == fingerprint(right):
+        return right, middle
+    return None
+
+
+def _entries(matrix: Expr, parts: list[Expr]) -> list[list[int]]:
+    """Rows of output positions; the entries of an expression are column by column."""
+    start = sum(part.shape[0] * part.shape[1] for part in parts)
+    parts.append(matrix)
+    rows, columns = matrix.shape
+    return [[start + r + rows * c for c in range(columns)] for r in range(rows)]
+
+
+def _opened(matrix: Expr) -> Expr:
+    """A definition's formula in the place of its name, where the formula has structure."""
+    while matrix.op == "deferred" and isinstance(matrix.args[0], Named):
+        body = matrix.args[0].body
+        if body.op not in ("kron", "diagonal", "deferred") and _congruence(body) is None:
+            break
+        matrix = body
+    return matrix
