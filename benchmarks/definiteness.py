@@ -2,10 +2,10 @@
 
     OPENBLAS_NUM_THREADS=1 python benchmarks/definiteness.py [--limit SECONDS]
 
-Random Gram matrices with rational entries, positive definite. `symctrl` is everything from the text of
-the matrix to the kernel's acceptance of the certificate. The peer maximises t subject to A - t I >= 0, as
-its users do; it is not asked again for larger matrices once it takes longer than the limit. Ratios are
-peer over symctrl, best of two.
+Random Gram matrices with rational entries, positive definite. `answer` is everything from the text of the matrix
+to the kernel's acceptance of the certificate; `check` is `symctrl check` of the certificate file again. The peer
+maximises t subject to A - t I >= 0, as its users do; it is not asked again for larger matrices once it takes
+longer than the limit. The ratio is peer over answer. Each is the best of two.
 """
 
 from __future__ import annotations
@@ -38,17 +38,23 @@ def matrix(n: int) -> list[list[str]]:
     return [[f"{2 * int(v) + (i == j)}/8" for j, v in enumerate(row)] for i, row in enumerate(b @ b.T)]
 
 
-def ours(text: str) -> tuple[float, float]:
-    """Seconds until the answer, and until the kernel has accepted its certificate."""
+def ours(text: str) -> tuple[float, str]:
+    """Seconds until the answer, and its certificate as text."""
     start = time.perf_counter()
     found = answer(text, "matrix.json")
-    answered = time.perf_counter()
-    checked = check_text(json.dumps(found["certificate"]))
-    if found["definiteness"] != "positive definite" or checked.status != "valid":
-        raise SystemExit(
-            f"the answer is {found['definiteness']}, its certificate {checked.status}: {checked.reason}"
-        )
-    return answered - start, time.perf_counter() - start
+    seconds = time.perf_counter() - start
+    if found["verdict"] != "proved" or found["definiteness"] != "positive definite":
+        raise SystemExit(f"the answer is {found['verdict']}: {found['reason']}")
+    return seconds, json.dumps(found["certificate"])
+
+
+def check(certificate: str) -> float:
+    """Seconds for the checker on the certificate."""
+    start = time.perf_counter()
+    checked = check_text(certificate)
+    if checked.status != "valid":
+        raise SystemExit(f"the certificate is {checked.status}: {checked.reason}")
+    return time.perf_counter() - start
 
 
 def peer(a: Any) -> float:
@@ -75,11 +81,12 @@ def main() -> None:
     )
     limit = options.parse_args().limit
     asked = True
-    print(f"{'n':>4} {'answer':>9} {'+ kernel':>9} {'CVXPY + Clarabel':>17} {'ratio':>8}   (seconds)")
+    print(f"{'n':>4} {'answer':>9} {'check':>9} {'CVXPY + Clarabel':>17} {'ratio':>8}   (seconds)")
     for n in SIZES:
         rows = matrix(n)
         text = json.dumps({"matrix": rows})
-        answered, checked = best(lambda text=text: ours(text))
+        answered, certificate = best(lambda text=text: ours(text))
+        checked = best(lambda certificate=certificate: check(certificate))
         line = f"{n:4} {answered:9.4f} {checked:9.4f}"
         if not asked:
             print(f"{line} {'not asked':>17} {'':>8}")
@@ -87,7 +94,7 @@ def main() -> None:
         a = np.array([[float(int(v.split("/")[0]) / 8) for v in row] for row in rows])
         seconds = best(lambda a=a: peer(a))
         asked = seconds <= limit
-        print(f"{line} {seconds:17.4f} {seconds / checked:8.1f}", flush=True)
+        print(f"{line} {seconds:17.4f} {seconds / answered:8.1f}", flush=True)
 
 
 if __name__ == "__main__":

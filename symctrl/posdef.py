@@ -6,18 +6,22 @@ import hashlib
 import json
 import re
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from math import log10
 from pathlib import Path
 from typing import Any
 
-from symctrl.certify import certificate, listing, tool
+from symctrl.certify import canonical, certificate, listing, tool
 from symctrl.decide.definiteness import Definiteness, decide_matrix
+from symctrl.kernel import definite, witness
+from symctrl.kernel.certificate import Declined, load
 
 FORMAT = "symctrl-posdef/1"
 MAX_SIZE = 1000
 MAX_DIGITS = 3900  # of a number written out; certificates hold numbers of this length
 
+_TOO_LONG = "their numbers are longer than a certificate may hold"
 _NUMBER = re.compile(r"[+-]?(\d+/\d+|(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,6})?)", re.ASCII)
 _SHAPE = 'a file must be like {"matrix": [["2", "1/3"], ["1/3", "0.5"]]}'
 
@@ -66,21 +70,25 @@ def parse(text: str, name: str) -> list[list[Fraction]]:
 
 
 def answer(text: str, name: str) -> dict[str, Any]:
-    """What `symctrl posdef --json` writes for the file `name` with this text. Raises PosdefError."""
+    """What `symctrl posdef --json` writes for the file `name` with this text. Raises PosdefError.
+
+    `proved` and `refuted` only with a certificate that the kernel has accepted.
+    """
     start = time.perf_counter()
     rows = parse(text, name)
     found = decide_matrix(rows)
     proof = _certificate(rows, found, name)
+    doubt = _TOO_LONG if proof is None else _declined(proof)
     return {
         "format": FORMAT,
         "tool": tool(),
         "inputs_sha256": hashlib.sha256(text.encode()).hexdigest(),
-        "verdict": _verdict(found),
+        "verdict": "undecided" if doubt else "proved" if found.witness is None else "refuted",
         "definiteness": found.definiteness,
         "rank": found.rank,
-        "certificate": proof,
-        "witness": None if found.witness is None else {"x": [str(v) for v in found.witness]},
-        "reason": _reason(rows, found),
+        "certificate": None if doubt else proof,
+        "witness": None if doubt or found.witness is None else {"x": [str(v) for v in found.witness]},
+        "reason": f"exact factors say {found.definiteness}, but {doubt}" if doubt else _reason(rows, found),
         "seconds": round(time.perf_counter() - start, 6),
     }
 
@@ -147,28 +155,36 @@ def _check_symmetry(rows: Sequence[Sequence[Fraction]], name: str) -> None:
 
 
 def _cut(value: Fraction) -> str:
-    return str(value) if len(str(value)) <= 40 else f"{str(value)[:37]}..."
+    """The number, or its size where it is long."""
+    bits = value.numerator.bit_length(), value.denominator.bit_length()
+    if max(bits) < 120:
+        return str(value)
+    return f"about {'-' if value < 0 else ''}1e{round((bits[0] - bits[1]) * log10(2))}"
 
 
-def _verdict(found: Definiteness) -> str:
-    if found.witness is not None:
-        return "refuted"
-    return "undecided" if found.leaf is None else "proved"
+def _declined(proof: Mapping[str, Any]) -> str:
+    """Why the kernel does not check the certificate, "" if it accepts it. Raises Invalid if it refuses it."""
+    try:
+        read_back = load(canonical(proof))
+        rule = witness if read_back.proof["kind"] == "witness" else definite
+        rule.verify(read_back.statement, read_back.proof)
+    except Declined as declined:
+        return f"the kernel does not check the certificate: {declined}"
+    return ""
 
 
 def _reason(rows: Sequence[Sequence[Fraction]], found: Definiteness) -> str:
     x = found.witness
     if x is not None:
         return f"for the witness x, x'Ax = {_cut(_form(rows, x))} < 0"
-    if found.leaf is None:
-        return (
-            f"exact factors show the matrix {found.definiteness}, but they have numbers longer than a "
-            "certificate may hold, so that there is no proof to check"
-        )
-    if "ldl" in found.leaf:
+    if "ldl" in (found.leaf or {}):
         sign = "positive" if found.definiteness == "positive definite" else "nonnegative"
         return f"A = L D L' exactly, with unit lower triangular L and {sign} D of rank {found.rank}"
     return "A - L L' is exactly diagonally dominant for the L of the certificate"
+
+
+def _long(value: Fraction) -> bool:
+    return max(value.numerator.bit_length(), value.denominator.bit_length()) > MAX_DIGITS / log10(2)
 
 
 def _form(rows: Sequence[Sequence[Fraction]], x: Sequence[Fraction]) -> Fraction:
@@ -179,6 +195,8 @@ def _form(rows: Sequence[Sequence[Fraction]], x: Sequence[Fraction]) -> Fraction
 def _certificate(rows: Sequence[Sequence[Fraction]], found: Definiteness, name: str) -> dict[str, Any] | None:
     """The claim that holds, proved; or the claim of semidefiniteness, shown false."""
     proof: dict[str, Any]
+    if any(_long(v) for v in found.witness or ()):
+        return None
     if found.witness is not None:
         kind = "positive_semidefinite"
         proof = {"kind": "witness", "values": {}, "x": [str(v) for v in found.witness]}

@@ -140,3 +140,10 @@ def test_no_certificate_no_proof():
         3,
     )
     assert found["certificate"] is None
+
+
+def test_a_certificate_that_the_kernel_declines_is_no_proof(monkeypatch):
+    monkeypatch.setattr("symctrl.kernel.matrices.MAX_WORK", 1)
+    found = answer(text([[2, 1], [1, 2]]), "m.json")
+    assert (found["verdict"], found["certificate"]) == ("undecided", None)
+    assert "too much work" in found["reason"]

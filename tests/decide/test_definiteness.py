@@ -1,8 +1,8 @@
 """Definiteness against the characteristic polynomial, which FLINT computes exactly.
 
 All eigenvalues of a symmetric matrix are real, so by Descartes' rule it is semidefinite exactly where the
-coefficients of its characteristic polynomial alternate in sign; its rank is the degree minus the multiplicity of
-the root 0.
+coefficients of its characteristic polynomial alternate in sign; its rank is the degree minus the multiplicity
+of the root 0.
 """
 
 from fractions import Fraction
