@@ -2,10 +2,10 @@
 
     OPENBLAS_NUM_THREADS=1 python benchmarks/definiteness.py [--limit SECONDS]
 
-Random Gram matrices with rational entries, positive definite. `answer` is everything from the text of the matrix
-to the kernel's acceptance of the certificate; `check` is `symctrl check` of the certificate file again. The peer
-maximises t subject to A - t I >= 0, as its users do; it is not asked again for larger matrices once it takes
-longer than the limit. The ratio is peer over answer. Each is the best of two.
+Random Gram matrices with rational entries, positive definite. `answer` is everything from the text of the
+matrix to the acceptance of its certificate by the kernel; `check` is `symctrl check` of the certificate file
+again. The peer maximises t subject to A - t I >= 0, as its users do; it is not asked again for larger matrices
+once it takes longer than the limit. The ratio is peer over answer. Each is the best of two.
 """
 
 from __future__ import annotations
