@@ -4,7 +4,7 @@
 
 Random Gram matrices with rational entries, positive definite. `answer` is everything from the text of the
 matrix to the acceptance of its certificate by the kernel; `check` is `symctrl check` of the certificate file
-again. The peer maximises t subject to A - t I >= 0, as its users do; it is not asked again for larger matrices
+again. The peer maximises t subject to A - t I >= 0, as its users do; it is not asked again for larger ones
 once it takes longer than the limit. The ratio is peer over answer. Each is the best of two.
 """
 
