@@ -216,10 +216,19 @@ def _scalar(function: ca.Function) -> ca.Function:
         raise GraphError(f"{named} has no scalar instructions to read; write it with scalar operations")
     try:
         with unfolded():
-            return function.expand()
+            expanded = function.expand()
     except RuntimeError as error:
         reason = str(error).strip().splitlines()[-1]
         raise GraphError(f"{named} cannot be expanded into scalar instructions: {reason}") from error
+    if any(called.__hash__() == function.__hash__() for called in _called(expanded)):
+        raise GraphError(f"{named} is marked never_inline, so CasADi does not expand it; leave the mark out")
+    return expanded
+
+
+def _called(function: ca.Function) -> list[ca.Function]:
+    steps = [k for k in range(function.n_instructions()) if function.instruction_id(k) == ca.OP_CALL]
+    nodes: Any = function.instructions_sx() if steps else None
+    return [nodes.nz[k].which_function() for k in steps]
 
 
 def _literal(function: ca.Function, k: int) -> Fraction:

@@ -130,6 +130,13 @@ class TestRefusals:
         with pytest.raises(GraphError, match=r"function g \(MXFunction\) cannot be expanded.*LinsolQr"):
             read(ca.Function("g", [m], [ca.inv(m)]))
 
+    def test_matrix_function_that_casadi_will_not_inline_is_named(self) -> None:
+        m = ca.MX.sym("m", 2)
+        kept = ca.Function("kept", [m], [2 * m], {"never_inline": True})
+        for function in (kept, ca.Function("f", [m], [kept(m) + m])):
+            with pytest.raises(GraphError, match=r"function kept \(MXFunction\) is marked never_inline"):
+                read(function)
+
     def test_printing_is_named(self) -> None:
         x = ca.SX.sym("x")
         with pytest.raises(GraphError, match=r"instruction .* of function f is printme"):
@@ -282,11 +289,21 @@ class TestExpansion:
     def test_calls_inside_matrix_functions_are_expanded(self) -> None:
         x, m = ca.SX.sym("x", 2), ca.MX.sym("m", 2)
         step = ca.Function("step", [x], [ca.vertcat(x[0] * x[1], x[0] - x[1] / 2)], {"never_inline": True})
-        twice = ca.Function("twice", [m], [step(step(m))], {"never_inline": True})
+        twice = ca.Function("twice", [m], [step(step(m))])
         function = ca.Function("f", [m], [twice(m) + step.mapaccum(3)(m)[:, -1]])
         a = b = (Fraction(3), Fraction(5))
         a, b = (self.step(self.step(a)), self.step(self.step(self.step(b))))
         assert interpret(function, FractionDomain(), [Fraction(3), Fraction(5)]) == [a[0] + b[0], a[1] + b[1]]
+
+    def test_outputs_in_blocks_keep_their_order(self) -> None:
+        m, n = ca.MX.sym("m", 2), ca.MX.sym("n", 2, 2)
+        outputs = [ca.blockcat([[n, m], [m.T, ca.MX(1)]]), ca.vertcat(m, ca.sin(m)), ca.diagcat(m, n)]
+        function = ca.Function("f", [m, n], outputs)
+        values = [0.3, 0.7, 1.0, 2.0, 3.0, 4.0]
+        called = function.call([ca.DM(values[:2]), ca.reshape(ca.DM(values[2:]), 2, 2)])
+        expected = [x for output in called for x in output.nonzeros()]
+        got = interpret(function, FloatDomain(), [np.array(x) for x in values])
+        np.testing.assert_allclose(np.array(got), expected, rtol=1e-15)
 
     @staticmethod
     def step(x: tuple[Fraction, Fraction]) -> tuple[Fraction, Fraction]:
