@@ -181,6 +181,8 @@ class UnitsDomain(Domain[Measured]):
 
     def _power(self, a: Measured, b: Measured) -> Unit | None:
         """A constant exponent scales the unit; with any other, base and exponent are pure."""
+        if b.literal == 0:
+            return PURE
         if b.literal is not None:
             return None if a.unit is None else a.unit**b.literal
         self._pure("base of a power", a)
