@@ -10,7 +10,7 @@ from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.domains.text import Text, TextDomain
 from symctrl.graph import ARITY, interpret, read, unfolded
 
-ARITHMETIC = ("ADD", "SUB", "MUL", "DIV", "NEG", "INV", "SQ", "TWICE", "LT", "POW")
+ARITHMETIC = ("ADD", "SUB", "MUL", "DIV", "NEG", "INV", "SQ", "TWICE", "POW")
 LEAVES: Mapping[str, Fraction] = {"x": Fraction(3), "y": Fraction(-5, 7), "z": Fraction(2, 3)}
 
 
