@@ -198,7 +198,10 @@ def natural(value: Any, below: int, where: str) -> int:
 def digest(value: Any) -> str:
     """SHA-256 of the canonical JSON: sorted keys, no spaces, UTF-8."""
     text = json.dumps(value, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
-    return hashlib.sha256(text.encode()).hexdigest()
+    try:
+        return hashlib.sha256(text.encode()).hexdigest()
+    except UnicodeError:
+        raise Invalid("a string holds half of a character") from None
 
 
 def load(text: str) -> Certificate:

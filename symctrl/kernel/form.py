@@ -114,7 +114,9 @@ def _listing(value: Any, where: str) -> Listing:
 
 def _step(value: Any, k: int, where: str) -> Step:
     step = typed(value, list, where)
-    op = step[0] if step and type(step[0]) is str else ""
+    op = typed(step[0], str, where) if step else ""
+    if not op:
+        raise Invalid(f"{where} has no operation")
     if op not in ARITY and op not in ("INPUT", "CONST"):
         raise Declined(f"{where}: the operation {op[:40]!r} is not known")
     if len(step) - 1 != ARITY.get(op, 1):

@@ -24,67 +24,73 @@ def line(text: str) -> str:
 
 def print_statement(statement: Statement, refuted: bool = False) -> str:
     """All that the statement says: the claim, what it is about, and under which conditions."""
-    return "\n".join(_lines(statement, refuted))
+    return "\n".join(_Printer(statement).lines(refuted))
 
 
-def _lines(s: Statement, refuted: bool) -> Iterator[str]:
-    yield f'statement {line(s.id)} of {line(s.study)}, in the words of the certificate: "{line(s.text)}"'
-    yield ("it is false that " if refuted else "") + _claim(s)
-    for given in s.given:
-        of = ", ".join(_formula(s, ref) for ref in given.of)
-        about = f" (about {line(given.about)})" if given.about else ""
-        yield f"given{about}: {of} {given.kind.replace('_', ' ')}"
-    for condition in s.conditions:
-        yield f"if {line(condition.of)} is {condition.kind}"
-    for name, meaning in s.names.items():
-        yield f"where {name} is {_meaning(s, meaning)}"
-    for name, ref in s.motion.items():
-        yield f"where d/dt {name} = {_formula(s, ref)}"
-    for law, table in s.laws.items():
-        for name, ref in table.items():
-            yield f"where the law {line(law)} has {name} = {_formula(s, ref)}"
-    kinds = sorted(set(s.scalars.values()))
-    for kind in kinds:
-        yield f"for all {kind}: " + ", ".join(name for name, of in s.scalars.items() if of == kind)
+class _Printer:
+    def __init__(self, statement: Statement) -> None:
+        self.statement = statement
+        self.texts: dict[str, dict[int, str]] = {}
+
+    def lines(self, refuted: bool) -> Iterator[str]:
+        s = self.statement
+        yield f'statement {line(s.id)} of {line(s.study)}, in the words of the certificate: "{line(s.text)}"'
+        yield ("it is false that " if refuted else "") + self.claim()
+        for given in s.given:
+            of = ", ".join(map(self.formula, given.of))
+            about = f" (about {line(given.about)})" if given.about else ""
+            yield f"given{about}: {of} {given.kind.replace('_', ' ')}"
+        for condition in s.conditions:
+            yield f"if {line(condition.of)} is {condition.kind}"
+        for name, meaning in s.names.items():
+            yield f"where {name} is {self.meaning(meaning)}"
+        for name, ref in s.motion.items():
+            yield f"where d/dt {name} = {self.formula(ref)}"
+        for law, table in s.laws.items():
+            for name, ref in table.items():
+                yield f"where the law {line(law)} has {name} = {self.formula(ref)}"
+        for kind in sorted(set(s.scalars.values())):
+            yield f"for all {kind}: " + ", ".join(name for name, of in s.scalars.items() if of == kind)
+
+    def claim(self) -> str:
+        claim = self.statement.claim
+        count = len(self.statement.listings[claim.listing].outputs)
+        outputs = [self.formula((claim.listing, k)) for k in range(count)]
+        size = f"{claim.shape[0]}x{claim.shape[1]}"
+        if claim.kind == "equal":
+            left, right = outputs[: count // 2], outputs[count // 2 :]
+            return f"claim ({size}): [{'; '.join(left)}] = [{'; '.join(right)}]"
+        tree = f" with entries {claim.matrix}" if claim.matrix is not None else ""
+        return f"claim ({size}): [{'; '.join(outputs)}] {claim.kind.replace('_', ' ')}{tree}"
+
+    def meaning(self, meaning: Meaning) -> str:
+        if meaning.kind == "constant":
+            return str(meaning.value)
+        of = self.formula(meaning.of)
+        law = f" under the law {line(meaning.law)}" if meaning.law is not None else ""
+        return {
+            "value": of,
+            "rate": f"d/dt ({of}){law}",
+            "sum": f"the sum over neighbours j of {of}",
+            "total": f"the sum over all nodes i of {of}",
+        }[meaning.kind]
+
+    def formula(self, ref: Ref) -> str:
+        listing = self.statement.listings[ref[0]]
+        if ref[0] not in self.texts:
+            self.texts[ref[0]] = _read_back(listing)
+        long = f"output {ref[1]} of {line(ref[0])} (sha256 {listing.sha256})"
+        return self.texts[ref[0]].get(listing.outputs[ref[1]], long)
 
 
-def _claim(s: Statement) -> str:
-    claim, listing = s.claim, s.claim.listing
-    outputs = [_formula(s, (listing, k)) for k in range(len(s.listings[listing].outputs))]
-    size = f"{claim.shape[0]}x{claim.shape[1]}"
-    if claim.kind == "equal":
-        half = len(outputs) // 2
-        return f"claim ({size}): [" + "; ".join(outputs[:half]) + "] = [" + "; ".join(outputs[half:]) + "]"
-    tree = f" with entries {claim.matrix}" if claim.matrix is not None else ""
-    return f"claim ({size}): [" + "; ".join(outputs) + f"] {claim.kind.replace('_', ' ')}{tree}"
-
-
-def _meaning(s: Statement, meaning: Meaning) -> str:
-    if meaning.kind == "constant":
-        return str(meaning.value)
-    of = _formula(s, meaning.of)
-    law = f" under the law {line(meaning.law)}" if meaning.law is not None else ""
-    return {
-        "value": of,
-        "rate": f"d/dt ({of}){law}",
-        "sum": f"the sum over neighbours j of {of}",
-        "total": f"the sum over all nodes i of {of}",
-    }[meaning.kind]
-
-
-def _formula(s: Statement, ref: Ref) -> str:
-    listing = s.listings[ref[0]]
-    text = _read_back(listing, listing.outputs[ref[1]])
-    return text if text is not None else f"output {ref[1]} of {line(ref[0])} (sha256 {listing.sha256})"
-
-
-def _read_back(listing: Listing, register: int) -> str | None:
-    """The formula of a register, or None where it is too long."""
+def _read_back(listing: Listing) -> dict[int, str]:
+    """The formula of each register whose formula is not too long."""
     texts: dict[int, str] = {}
-    for k, step in enumerate(listing.code[: register + 1]):
+    for k, step in enumerate(listing.code):
         args = [texts.get(a) for a in step.args]
         if step.op in ("INPUT", "CONST"):
-            text = step.name or str(step.value)
+            plain = step.value.denominator == 1 and step.value >= 0
+            text = step.name or (str(step.value) if plain else f"({step.value})")
         elif None in args:
             continue
         elif step.op in _INFIX:
@@ -95,4 +101,4 @@ def _read_back(listing: Listing, register: int) -> str | None:
             text = f"{step.op.lower()}({', '.join(map(str, args))})"
         if len(text) <= MAX_FORMULA:
             texts[k] = text
-    return texts.get(register)
+    return texts

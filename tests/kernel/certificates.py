@@ -55,7 +55,10 @@ def certificate(
     conditions: list[Json] | None = None,
     **tables: Any,
 ) -> Json:
-    """An identity with one entry from the listing `claim`, unless said otherwise; conditions as the kernel finds."""
+    """An identity with one entry from the listing `claim`, unless said otherwise.
+
+    conditions: by default those that the kernel finds.
+    """
     statement: Json = {
         "study": "tests",
         "id": "one",
@@ -71,12 +74,18 @@ def certificate(
         **tables,
     }
     whole = {"format": "symctrl-certificate/1", "tool": "tests", "statement": statement}
-    whole["proof"] = {"kind": "identity", "generators": [], "factors": [], "hints": [], **proof}
+    whole["proof"] = {
+        "kind": "identity",
+        "generators": [],
+        "factors": [],
+        "hints": [],
+        **copy.deepcopy(proof),
+    }
     if conditions is None:
         loaded = load(json.dumps(seal(whole)))
         found = needed_conditions(loaded.statement, loaded.proof)
         statement["conditions"] = [{"kind": c.kind, "of": c.of} for c in sorted(found, key=str)]
-    return seal(whole)
+    return json.loads(json.dumps(seal(whole)))  # no part of it shared with another
 
 
 def free(*names: str) -> list[Json]:
@@ -97,7 +106,7 @@ def explain(certificate: Json) -> str:
 
 
 def mutations(certificate: Json) -> Iterator[tuple[str, Json]]:
-    """Every certificate that differs in one number, string, or dropped list entry of the proof, with right digests."""
+    """Every certificate whose proof differs in one number, string, or shortened list, with right digests."""
     for path in list(_leaves(certificate["proof"], ())):
         for change in _changes(_get(certificate["proof"], path)):
             other = copy.deepcopy(certificate)
@@ -121,7 +130,7 @@ def _changes(value: Any) -> list[Any]:
         return [value[:-1], value[1:], []]
     if isinstance(value, int):
         return [value + 1, value - 1, -value if value else 7]
-    return [value + "1", "-" + value, "2", ""]
+    return [new for new in (value + "1", "-" + value, "2", "") if new != value]
 
 
 def _get(value: Any, path: tuple[Any, ...]) -> Any:
