@@ -76,6 +76,7 @@ def enter(
     if name in study.entries:
         raise StudyError(f"there are two functions {name} in the study {study.name}; a name is the id of one")
     sentence = " ".join((inspect.getdoc(function) or "").split("\n\n")[0].split())
+    sentence = sentence or why or ""
     if not sentence and form not in ("definition", "law"):
         raise StudyError(f"{name}: the docstring must say the claim in a sentence")
     parameters = list(inspect.signature(function).parameters)

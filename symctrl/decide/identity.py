@@ -7,9 +7,10 @@ sums over their neighbours is the sum over all edges, each taken in both directi
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 from symctrl.decide.session import Session
-from symctrl.domains.field import Exact
+from symctrl.domains.field import Exact, Key
 from symctrl.problem import star
 
 EDGE = {"i": "i", "j": "j"}
@@ -82,21 +83,19 @@ def _by_sums(session: Session, value: Exact, sums: Sequence[int]) -> tuple[Exact
     value = domain.simplified(value)
     if _hidden(session, value) & set(sums):
         return None
-    rest: Exact = {}
-    linear: dict[int, Exact] = {}
+    parts: dict[int, dict[Key, dict[tuple[int, ...], Any]]] = {}
     for key, p in value.items():
         for exponents, c in p.terms():
             present = [v for v in columns if exponents[v]]
             if len(present) > 1 or any(exponents[v] > 1 for v in present):
                 return None
-            lowered = tuple(0 if v in present else int(e) for v, e in enumerate(exponents))
-            term: Exact = {key: field.context.from_dict({lowered: c})}
-            if present:
-                k = columns[present[0]]
-                linear[k] = domain.add_(linear.get(k, {}), term)
-            else:
-                rest = domain.add_(rest, term)
-    return rest, linear
+            lowered = list(exponents)
+            for v in present:
+                lowered[v] = 0
+            k = columns[present[0]] if present else -1
+            parts.setdefault(k, {}).setdefault(key, {})[tuple(lowered)] = c
+    made = {k: {key: field.context.from_dict(p) for key, p in groups.items()} for k, groups in parts.items()}
+    return made.pop(-1, {}), made
 
 
 def _hidden(session: Session, value: Exact) -> set[int]:
