@@ -76,9 +76,10 @@ def _stands(row: Row) -> str:
 
 
 def _in_few_words(row: Row) -> str:
-    """Nothing where all is well; else the condition on the trajectory, the reason, what is odd beside it."""
+    """Nothing where all is well; else conditions without a voucher, the reason, what is odd beside it."""
     said = [f"if {given.text}" for given in row.given if row.conditional and given.about == "trajectory"]
-    if row.verdict != "proved" or not row.stands:
+    said += [f"needs {condition.condition}" for condition in row.conditions if condition.by is None]
+    if row.verdict != "proved" or not (row.stands or said):
         said.append(textwrap.shorten(row.reason, _LONGEST_REASON, placeholder=" …"))
     if row.units is not None and row.units.mismatch:
         said.append(f"units: {row.units.mismatch}")

@@ -17,6 +17,7 @@ x, v = study.state("x", unit="m"), study.state("v", unit="m/s")
 m, s = study.parameter("m", "2", unit="kg"), study.parameter("s", "3", unit="N/m")
 c = study.gain("c", "1/2")  # the equations say its unit
 u = study.input("u", unit="N")
+study.assume(m > 0, s > 0)
 
 study.motion(x, v)
 study.motion(v, (u - s * x) / m)

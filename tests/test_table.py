@@ -9,26 +9,10 @@ from hypothesis import strategies as st
 from rich.console import Console
 
 from symctrl import table
-from symctrl.rows import Given, Report, Row, Twins, Units
+from symctrl.rows import Discharged, Given, Report, Twins, Units
+from tests.samples import row
 
 ANSI = re.compile(r"\x1b\[[0-9;]*m")
-
-
-def row(name, **changed):
-    fields = {
-        "equation": "(7)",
-        "statement": "a = b",
-        "latex": "a = b",
-        "form": "printed",
-        "corrects": None,
-        "kind": "equal",
-        "verdict": "proved",
-        "stands": True,
-        "conditional": False,
-        "reason": "both sides agree",
-        "method": "exact",
-    }
-    return Row(id=name, **{**fields, **changed})
 
 
 def report(*rows, missing=(), graph=None):
@@ -95,6 +79,12 @@ def test_a_condition_about_the_trajectory_is_shown_and_others_are_not():
     assert " if " in line
     assert line.endswith("if |s| < 1")
     assert "w is bounded" not in line
+
+
+def test_a_proof_that_does_not_stand_says_what_it_needs():
+    conditions = (Discharged("m != 0", None), Discharged("s != 0", "an assumption"))
+    line = shown(report(row("rate", stands=False, conditions=conditions))).splitlines()[1]
+    assert line.endswith("  needs m != 0")
 
 
 def test_what_is_odd_beside_a_proof_is_shown():
