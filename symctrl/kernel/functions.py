@@ -49,8 +49,7 @@ def _require_root(step: Step, square: Value, value: Value) -> None:
     field = step.field
     if not field.is_zero(field.sub(field.mul(value, value), square)):
         step.refuse("the square of the stated value is another one")
-    if not step.signs.of_value(value) <= SIGNS["nonnegative"]:
-        step.refuse("the stated value is not known to be nonnegative")
+    step.signs.require_value("nonnegative", value, f"{step.where}: a root")
 
 
 def _sign(step: Step, args: list[Value], value: Value) -> None:

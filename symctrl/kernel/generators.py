@@ -15,11 +15,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, fields, natural, typed
-from symctrl.kernel.field import Field, Value, read_poly
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, split_name, typed
+from symctrl.kernel.field import Field, Value, read_poly, read_powers
 from symctrl.kernel.polynomial import Poly, Relation, monomial, powers, relation, variables
 
 MAX_ROOT = 1000
+_OTHER = {"i": "j", "j": "i"}
 MAX_TEXT = 20_000
 # The functions that have no relation, with their numbers of arguments.
 FUNCTIONS = {
@@ -34,7 +35,7 @@ class Generator:
     """`kind` is the key that tells the definition; `name` is that of a free symbol or of a function.
 
     `base` is the POLY and `args` the VALUEs; `number` is the degree of a root, or the generator that a sign
-    or a sine goes with.
+    or a sine goes with. A sum over the neighbours of the node `name` is of the monomial `powers`.
     """
 
     kind: str
@@ -42,6 +43,7 @@ class Generator:
     base: Poly | None = None
     args: tuple[Value, ...] = ()
     number: int = 0
+    powers: tuple[tuple[int, int], ...] = ()
 
 
 def read_generators(value: Any, field: Field) -> list[Generator]:
@@ -50,12 +52,25 @@ def read_generators(value: Any, field: Field) -> list[Generator]:
     for k, entry in enumerate(typed(value, list, "generators")):
         where = f"generator {k}"
         new = _read(typed(entry, dict, where), field, table, where)
-        if new.kind == "free" and any(old.kind != "free" or old.name == new.name for old in table):
-            raise Invalid(f"{where}: free generators come first, each once")
+        if new in table:
+            raise Invalid(f"{where} is there twice")
         if any(v >= k for v in read_by(new, field)):
             raise Invalid(f"{where} is defined by one that is not earlier")
         table.append(new)
+        if any(letters(table, v, field) != {_OTHER[new.name]} for v, _ in new.powers):
+            raise Invalid(f"{where}: a sum over neighbours is of what belongs to the neighbour alone")
     return table
+
+
+def letters(table: list[Generator], k: int, field: Field) -> set[str]:
+    """The generic nodes that generator k belongs to: i, j, both or none."""
+    g = table[k]
+    if g.kind == "sum":
+        return {g.name}
+    if g.kind == "free":
+        node = split_name(g.name.rstrip("'"))[1]
+        return {node} if node else set()
+    return set().union(*(letters(table, v, field) for v in read_by(g, field)))
 
 
 def read_by(g: Generator, field: Field) -> set[int]:
@@ -64,7 +79,7 @@ def read_by(g: Generator, field: Field) -> set[int]:
     for value in g.args:
         for key, p in value.items():
             found |= variables(p).union(*(variables(field.factors[f]) for f, _ in key))
-    return found | ({g.number} if g.kind in ("sign", "sin") else set())
+    return found | ({g.number} if g.kind in ("sign", "sin") else set()) | {k for k, _ in g.powers}
 
 
 def _read(entry: dict[str, Any], field: Field, table: list[Generator], where: str) -> Generator:
@@ -73,6 +88,11 @@ def _read(entry: dict[str, Any], field: Field, table: list[Generator], where: st
 
     if "free" in entry:
         return Generator("free", name=typed(fields(entry, ("free",), where)["free"], str, where))
+    if "sum" in entry:
+        node = typed(fields(entry, ("sum", "node"), where)["node"], str, where)
+        if node not in _OTHER:
+            raise Invalid(f"{where}: a sum is over the neighbours of node i or j, not {node[:40]!r}")
+        return Generator("sum", name=node, powers=read_powers(entry["sum"], field.variables, where))
     if "root" in entry:
         degree = natural(fields(entry, ("root", "of"), where)["root"], MAX_ROOT, where)
         if degree < 2:
@@ -171,6 +191,8 @@ class Printer:
         args = ", ".join(self.value(arg) for arg in g.args)
         if g.kind == "free":
             return g.name
+        if g.kind == "sum":
+            return f"sum({self.poly({monomial(g.powers): 1})})"
         if g.kind == "root":
             return f"sqrt({of})" if g.number == 2 else f"root({g.number}, {of})"
         if g.kind == "power":

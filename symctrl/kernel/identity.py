@@ -29,6 +29,7 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     fields(proof, ("kind", "generators", "factors", "hints"), "proof")
     sums = SymbolSums()
     replay = Replay(statement, proof, sums)
+    sums.replay = replay
     replay.assume_given()
     values = replay.claim()
     test = SumIdentity(replay, sums)

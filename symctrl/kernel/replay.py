@@ -2,14 +2,14 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on: a hint only proposes; each is checked by the rule of its operation (`functions`), an inverse by
+Relies on: a hint only proposes, and any hint may serve; each is checked by the rule of its operation (`functions`), an inverse by
 comparing the inverted value. All factors are nonzero and all generators real, by what is given or by a
 condition of the statement, and everything that the proof brings is used.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -29,7 +29,7 @@ from symctrl.kernel.conditions import Signs
 from symctrl.kernel.evaluation import Evaluation, Sums
 from symctrl.kernel.field import Field, Value, read_poly, read_powers
 from symctrl.kernel.generators import read_by, read_generators, relations_of
-from symctrl.kernel.polynomial import Poly, relation, variables
+from symctrl.kernel.polynomial import Poly, monomial, relation, variables
 
 MAX_FACTOR_POWER = 1000
 
@@ -51,8 +51,9 @@ class Replay(Domain[Value]):
         self.statement = statement
         self.walk = Evaluation(statement, self, self._free, sums)
         self.given: list[list[Value]] = []
-        self._hints = typed(proof["hints"], list, "hints")
-        self._next = 0
+        self._hints = [typed(hint, dict, "a hint") for hint in typed(proof["hints"], list, "hints")]
+        self._used_hints: set[int] = set()
+        self._results: dict[Any, Value] = {}
         self._used: set[int] = set()
         self._used_factors: set[int] = set()
         self._add_relations()
@@ -97,11 +98,7 @@ class Replay(Domain[Value]):
 
     def claim(self) -> list[Value]:
         """The outputs of the claim's listing at node i."""
-        return self.walk.outputs(self.statement.claim.listing, {"i": "i"})
-
-    def use(self, k: int) -> None:
-        """Generator k counts as used."""
-        self._used.add(k)
+        return self.walk.outputs(self.statement.claim.listing, {"i": "i", "j": "j"})
 
     def poly(self, value: Any, where: str) -> Poly:
         """A POLY that another part of the proof brings; its generators count as used."""
@@ -111,8 +108,9 @@ class Replay(Domain[Value]):
 
     def close(self) -> set[Condition]:
         """The conditions that the proof needs. Raises Invalid for what is unused, or undefined everywhere."""
-        if self._next != len(self._hints):
-            raise Invalid(f"hint {self._next} of {len(self._hints)} is not used")
+        idle = set(range(len(self._hints))) - self._used_hints
+        if idle:
+            raise Invalid(f"hint {min(idle)} of {len(self._hints)} is not used")
         for k, g in enumerate(self.table):
             functions.require_defined(self.signs, g, f"generator {k}")
         for k, p in enumerate(self.field.factors):
@@ -171,41 +169,77 @@ class Replay(Domain[Value]):
             if number == 0:
                 raise Invalid("a division by zero")
             return self.constant(1 / number)
-        where = f"hint {self._next}"
-        hint = typed(self._hint(("inverse",))["inverse"], list, where)
-        if len(hint) != 2:
+        return self._found("INV", [a], lambda k: self._inverse(k, a))
+
+    def function(self, op: str, args: Sequence[Value]) -> Value:
+        if op not in functions.RULES:
+            raise Declined(f"{op.lower()} has no rule")
+        return self._found(op, list(args), lambda k: self._result(k, op, list(args)))
+
+    def _found(self, op: str, args: list[Value], attempt: Callable[[int], Value | None]) -> Value:
+        """The value that the first hint gives that the rule of the operation confirms."""
+        memo = op, tuple(frozenset((key, frozenset(p.items())) for key, p in a.items()) for a in args)
+        reason = ""
+        for k in range(len(self._hints)) if memo not in self._results else ():
+            try:
+                value = attempt(k)
+            except Invalid as refused:
+                reason = f": {refused}"
+                continue
+            if value is not None:
+                self._used_hints.add(k)
+                self._results[memo] = value
+                break
+        if memo not in self._results:
+            of = ", ".join(self.signs.printer.value(a)[:120] for a in args)
+            raise Invalid(f"no hint gives {op.lower()} of {of}{reason}")
+        return self._results[memo]
+
+    def _inverse(self, k: int, a: Value) -> Value | None:
+        """The inverse by hint k, if that is one."""
+        where, hint = f"hint {k}", self._hints[k]
+        if "inverse" not in hint:
+            return None
+        pair = typed(fields(hint, ("inverse",), where)["inverse"], list, where)
+        if len(pair) != 2:
             raise Invalid(f"{where}: an inverse is [number, powers of factors]")
-        scale = rational(hint[0], where)
-        factors = read_powers(typed(hint[1], list, where), len(self.field.factors), where, signed=True)
+        scale = rational(pair[0], where)
+        factors = read_powers(typed(pair[1], list, where), len(self.field.factors), where, signed=True)
         if scale == 0 or any(abs(e) > MAX_FACTOR_POWER for _, e in factors):
             raise Invalid(f"{where}: the scale is zero or an exponent too large")
-        self._used_factors |= {f for f, _ in factors}
         up = tuple((f, e) for f, e in factors if e > 0)
         down = tuple((f, -e) for f, e in factors if e < 0)
         ring = self.field.ring
         stated = {down: ring.scale(self.field.denominator(up), scale)}
         if not self.field.is_zero(self.field.sub(a, stated)):
-            raise Invalid(f"{where}: the inverted value is not what the hint says")
+            raise Invalid(f"{where} is about another value")
+        self._used_factors |= {f for f, _ in factors}
         return {up: ring.scale(self.field.denominator(down), 1 / scale)}
 
-    def function(self, op: str, args: Sequence[Value]) -> Value:
-        rule = functions.RULES.get(op)
-        if rule is None:
-            raise Declined(f"{op.lower()} has no rule")
-        where = f"hint {self._next} ({op.lower()})"
-        value = self.field.read(self._hint(("is",))["is"], where)
+    def _result(self, k: int, op: str, args: list[Value]) -> Value | None:
+        """The value of a function by hint k, if that is one."""
+        where, hint = f"hint {k} ({op.lower()})", self._hints[k]
+        if "is" not in hint:
+            return None
+        value = self.field.read(fields(hint, ("is",), where)["is"], where)
+        functions.RULES[op](functions.Step(self.field, self.table, self.signs, op, where), args, value)
         for key, p in value.items():
             self._used |= variables(p)
             self._used_factors |= {f for f, _ in key}
-        rule(functions.Step(self.field, self.table, self.signs, op, where), list(args), value)
         return value
 
-    def _hint(self, names: tuple[str]) -> dict[str, Any]:
-        if self._next >= len(self._hints):
-            raise Invalid(f"there are only {len(self._hints)} hints, and a {names[0]!r} is needed next")
-        hint = fields(self._hints[self._next], names, f"hint {self._next}")
-        self._next += 1
-        return hint
+    def sum_generator(self, inside: tuple[tuple[int, int], ...], node: str) -> int:
+        """The generator of the sum of a monomial over the neighbours of a node. Raises Invalid where there is none."""
+        for k, g in enumerate(self.table):
+            if g.kind == "sum" and g.name == node and g.powers == inside:
+                self._used.add(k)
+                return k
+        of = self.signs.printer.poly({monomial(inside): 1})
+        raise Invalid(f"the table has no sum of {of[:120]} over the neighbours of {node}")
+
+    def reaches(self, k: int, wanted: set[int]) -> bool:
+        """Is generator k one of those wanted, or defined over one?"""
+        return k in wanted or any(self.reaches(v, wanted) for v in read_by(self.table[k], self.field))
 
 
 def require_conditions(statement: Statement, needed: set[Condition]) -> None:

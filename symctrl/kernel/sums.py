@@ -1,15 +1,15 @@
-"""Sums over the neighbours and nodes of any graph, as symbols, and identities between them.
+"""Sums over the neighbours and nodes of any graph, and identities between them.
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorem: in an undirected graph, the sum over nodes i of the sum over neighbours j of E(i, j) is the sum
-over edges {i, j} of E(i, j) + E(j, i). So it vanishes for every graph if E(i, j) + E(j, i) = 0 for generic
-distinct nodes; and a sum over the neighbours of i alone vanishes for every graph if E(i, j) = 0. A sum over
-nodes of terms that vanish is zero. These conditions are sufficient; they are what is checked here. What is
-given holds at every node.
+Theorem: a sum over the neighbours of a node of c u, where c belongs to the node and u to the neighbour, is c times
+the sum of u. So every such sum is a polynomial in generators T = sum of a monomial of the neighbour, and what vanishes
+as a polynomial in these vanishes for every graph. In an undirected graph, the sum over nodes i of c(i) T(i), with T
+the sum of u over the neighbours, is the sum over edges {i, j} of c(i) u(j) + c(j) u(i): if that is zero for generic
+distinct nodes, the sum over nodes is zero for every graph. What is given holds at every node.
 
-A symbol S at level n is the nest of pairs of its generators S, S', S'', ... (as many primes as
-derivatives). The derivative of a sum is the sum of the derivatives of its terms.
+A total, the sum over all nodes, is a generator for each derivative: T, T', T'', ... The derivative of a sum is the sum
+of the derivatives of its terms.
 """
 
 from __future__ import annotations
@@ -17,189 +17,141 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, at_node, split_name
-from symctrl.kernel.closure import Reach
-from symctrl.kernel.evaluation import Evaluation, Level, NoSums
+from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.evaluation import Evaluation, Level
 from symctrl.kernel.field import Value
-from symctrl.kernel.generators import Generator, read_by
-from symctrl.kernel.polynomial import Number, Poly, monomial, powers, variables
+from symctrl.kernel.generators import letters
+from symctrl.kernel.polynomial import Poly, monomial, powers
 from symctrl.kernel.replay import Replay
 
-Made = tuple[str, int, str | None]  # the name in the tables, how often it is differentiated, under which law
+OTHER = {"i": "j", "j": "i"}
+Made = tuple[str, int, str | None]  # the name of a total, how often it is differentiated, under which law
 
 
 class SymbolSums:
-    """Every sum at node i, and every total, is a symbol. `made` says what each generator stands for."""
+    """Sums as polynomials in generators of the table. `totals` says what each total's generator stands for."""
 
     def __init__(self) -> None:
-        self.made: dict[str, Made] = {}
+        self.replay: Replay | None = None
+        self.totals: dict[int, Made] = {}
 
     def value(self, walk: Evaluation[Any], key: str, node: str, level: int, law: str | None) -> Level:
-        if node not in ("", "i"):
-            raise Invalid(f"{key} is read at node {node}: sums are over the neighbours of node i alone")
+        meaning = walk.statement.names[key]
+        if meaning.kind == "total":
+            return self._nest(walk, key, level, 0, law)
+        if node not in OTHER:
+            raise Invalid(f"{key} is a sum over the neighbours of no node")
+        terms = walk.output(meaning.of, {"i": node, "j": OTHER[node]}, level, law)
+        return _mapped(terms, level, lambda value: self._summed(value, node))
 
-        def nest(level: int, primes: int) -> Level:
-            if level > 0:
-                return nest(level - 1, primes), nest(level - 1, primes + 1)
-            name = at_node(key, node) + "'" * primes
-            new = (key, primes, self._law_that_matters(walk, key, primes, law))
-            if self.made.setdefault(name, new) != new:
-                raise Declined(f"{name} is read under two laws")
-            return walk.free(name)
+    def _nest(self, walk: Evaluation[Any], key: str, level: int, primes: int, law: str | None) -> Level:
+        if level > 0:
+            return self._nest(walk, key, level - 1, primes, law), self._nest(walk, key, level - 1, primes + 1, law)
+        name = key + "'" * primes
+        value = walk.free(name)
+        assert self.replay is not None
+        k = self.replay.free[name]
+        if self.totals.setdefault(k, (key, primes, law)) != (key, primes, law):
+            raise Declined(f"{name} is read under two laws")
+        return value
 
-        return nest(level, 0)
+    def _summed(self, value: Value, node: str) -> Value:
+        """The sum over the neighbours of a node of a value that belongs to the node and its neighbour."""
+        assert self.replay is not None
+        table, field, other = self.replay.table, self.replay.field, OTHER[node]
+        of = [letters(table, k, field) for k in range(len(table))]
+        result: Value = {}
+        for key, p in value.items():
+            if any(other in of[k] for f, _ in key for k in _variables(field.factors[f])):
+                raise Declined("a sum over neighbours that divides by what belongs to the neighbour")
+            summed: Poly = {}
+            for m, c in p.items():
+                if any(of[k] == {"i", "j"} for k, _ in powers(m)):
+                    raise Declined("a sum over neighbours of a function of both nodes")
+                inside = tuple((k, e) for k, e in powers(m) if other in of[k])
+                t = self.replay.sum_generator(inside, node)
+                moved = m - monomial(list(inside)) + monomial([(t, 1)])
+                summed = field.ring.add(summed, {moved: c})
+            result = field.add(result, {key: summed})
+        return result
 
-    def _law_that_matters(self, walk: Evaluation[Any], key: str, primes: int, law: str | None) -> str | None:
-        """None where the terms and their derivatives do not read an input that the law gives."""
-        reach = Reach(walk.statement)
-        reach.listing(walk.statement.names[key].of[0], "ij", primes, law)
-        return law if any(used == law for used, _ in reach.replaced) else None
+
+def _mapped(level_value: Level, level: int, change: Callable[[Value], Value]) -> Level:
+    if level_value is None:
+        return None
+    if level == 0:
+        return change(level_value)
+    return tuple(_mapped(part, level - 1, change) for part in level_value)
+
+
+def _variables(p: Poly) -> set[int]:
+    return {k for m in p for k, _ in powers(m)}
 
 
 class SumIdentity:
-    """The zero test for values with sum symbols; without any, it is that of the field.
-
-    Making it evaluates the terms of the totals, then of the sums at (i, j), then at (j, i), by generator.
-    """
+    """The zero test for values with sums; without totals, it is that of the field."""
 
     def __init__(self, replay: Replay, sums: SymbolSums) -> None:
         self.replay = replay
         self.field = replay.field
         self.sums = sums
-        self.total_symbols = self._symbols("total")
-        self.totals = {k: self._term(k, {"i": "i"}) for k in sorted(self.total_symbols)}
-        self.sum_symbols = self._symbols("sum")
-        if self._symbols("total") != self.total_symbols:
-            raise Declined("a total inside a total")
-        symbols = self.total_symbols | self.sum_symbols
-        read = set().union(*map(variables, self.field.factors), *map(self._read_by, replay.table))
-        if symbols & read:
-            raise Invalid("a sum occurs in a denominator or inside a root or another function")
-        replay.walk.sums = NoSums()
-        self.terms = {k: self._term(k, {"i": "i", "j": "j"}) for k in sorted(self.sum_symbols)}
-        self.swapped = {k: self._term(k, {"i": "j", "j": "i"}) for k in sorted(self.sum_symbols)}
-
-    def _symbols(self, kind: str) -> set[int]:
-        names = self.replay.statement.names
-        return {
-            self.replay.free[name] for name, made in self.sums.made.items() if names[made[0]].kind == kind
-        }
-
-    def _term(self, symbol: int, binding: dict[str, str]) -> Value:
-        """The term of the sum that a symbol stands for, under a binding."""
-        key, primes, law = self.sums.made[self.replay.table[symbol].name]
-        term: Level = self.replay.walk.output(self.replay.statement.names[key].of, binding, primes, law)
-        for _ in range(primes):
-            term = None if term is None else term[1]
-        return {} if term is None else term
-
-    def _read_by(self, g: Generator) -> set[int]:
-        return read_by(g, self.field)
 
     def require_zero(self, value: Value, where: str) -> None:
         """Raises Invalid where the value is not shown to be zero for every graph."""
+        if self.field.is_zero(value):
+            return
         numerator, _ = self.field.fraction(value)
         p = self.field.normal(numerator)
-        if not variables(p) & (self.total_symbols | self.sum_symbols):
-            if p and not self.field.is_zero(value):
-                raise Invalid(f"{where}: the sides differ by {self.replay.signs.printer.poly(p)[:300]}")
-        elif variables(p) & self.total_symbols:
-            self._require_zero_at_node(self._without_totals(p, where), where, exchange=True)
-        else:
-            self._require_zero_at_node({(): p}, where, exchange=False)
-
-    def _without_totals(self, p: Poly, where: str) -> Value:
-        """The term at node i of a linear combination of totals whose coefficients belong to no node."""
-        local = self._node_generators()
-        result: Value = {}
-        for m, c in p.items():
-            symbols = [(k, e) for k, e in powers(m) if k in self.total_symbols]
-            rest = [(k, e) for k, e in powers(m) if k not in self.total_symbols]
-            if len(symbols) != 1 or symbols[0][1] != 1 or any(k in local for k, _ in rest):
-                raise Invalid(f"{where}: not a linear combination of sums over all nodes")
-            term = self.totals[symbols[0][0]]
-            result = self.field.add(result, self.field.mul({(): {monomial(rest): c}}, term))
-        return result
-
-    def _node_generators(self) -> set[int]:
-        """The generators that depend on a node."""
-        found = set(self.sum_symbols)
-        for k, g in enumerate(self.replay.table):
-            if _letter(g) or self._read_by(g) & found:
-                found.add(k)
-        return found
-
-    def _require_zero_at_node(self, value: Value, where: str, exchange: bool) -> None:
-        numerator, key = self.field.fraction(value)
-        linear: dict[int, Poly] = {}
-        for m, c in self.field.normal(numerator).items():
-            symbols = [(k, e) for k, e in powers(m) if k in self.sum_symbols]
-            if sum(e for _, e in symbols) != 1:
-                what = "a part without sums" if not symbols else "a product of sums"
-                raise Invalid(f"{where}: {what} is left at a node")
-            k = symbols[0][0]
-            linear.setdefault(k, {})[m - monomial(symbols)] = c
-        if not exchange:
-            edge = self._combined(linear, self.terms)
-        else:
-            below = self.field.denominator(key)
-            back = {k: self._swap(p) for k, p in linear.items()}
-            edge = self.field.add(
-                self.field.mul(self._combined(linear, self.terms), {(): self._swap(below)}),
-                self.field.mul(self._combined(back, self.swapped), {(): below}),
-            )
+        if not _variables(p) & self.sums.totals.keys():
+            raise Invalid(f"{where}: the sides differ by {self.replay.signs.printer.poly(p)[:300]}")
+        coefficients = self._coefficients(p, where)
+        ends = [self._at_node(coefficients, node) for node in ("i", "j")]
+        edge: Value = {}
+        if not self.field.is_zero(ends[0]):
+            for end, node in zip(ends, ("i", "j"), strict=True):
+                edge = self.field.add(edge, self._along_edge(end, node, where))
         if not self.field.is_zero(edge):
             raise Invalid(f"{where}: the terms of an edge do not cancel")
 
-    def _combined(self, coefficients: dict[int, Poly], terms: dict[int, Value]) -> Value:
-        result: Value = {}
-        for k, p in coefficients.items():
-            result = self.field.add(result, self.field.mul({(): p}, terms[k]))
-        return result
-
-    def _swap(self, p: Poly) -> Poly:
-        """The polynomial with the nodes i and j exchanged."""
-        result: Poly = {}
+    def _coefficients(self, p: Poly, where: str) -> dict[int, Poly]:
+        """A linear combination of totals, whose coefficients belong to no node."""
+        found: dict[int, Poly] = {}
         for m, c in p.items():
-            image: Poly = {0: c}
-            for k, e in powers(m):
-                image = self.field.ring.mul(image, {monomial([(self._swapped(k), e)]): 1})
-            result = self.field.ring.add(result, image)
-        return result
+            totals = [(k, e) for k, e in powers(m) if k in self.sums.totals]
+            rest = [(k, e) for k, e in powers(m) if k not in self.sums.totals]
+            local = any(letters(self.replay.table, k, self.field) for k, _ in rest)
+            if len(totals) != 1 or totals[0][1] != 1 or local:
+                raise Invalid(f"{where}: not a linear combination of sums over all nodes")
+            found.setdefault(totals[0][0], {})[monomial(rest)] = c
+        return found
 
-    def _swapped(self, k: int) -> int:
-        g = self.replay.table[k]
-        if g.kind == "free" and _letter(g):
-            base = g.name.rstrip("'")
-            name = at_node(split_name(base)[0], "j" if _letter(g) == "i" else "i") + g.name[len(base) :]
-            if name not in self.replay.free:
-                raise Invalid(
-                    f"{name} is not in the table of generators, and {g.name} is needed at both nodes"
-                )
-            self.replay.use(self.replay.free[name])
-            return self.replay.free[name]
-        if not self._read_by(g) & self._node_generators():
-            return k
-        wanted = self._definition(g, self._swap, self._swapped)
-        for other, candidate in enumerate(self.replay.table):
-            if candidate.kind == g.kind and self._definition(candidate, lambda p: p, lambda n: n) == wanted:
-                self.replay.use(other)
-                return other
-        raise Invalid(f"generator {k} has no counterpart with the nodes exchanged")
+    def _at_node(self, coefficients: dict[int, Poly], node: str) -> Value:
+        """The combination of the terms of the totals at one node."""
+        total: Value = {}
+        for k, p in coefficients.items():
+            key, primes, law = self.sums.totals[k]
+            term: Level = self.replay.walk.output(
+                self.replay.statement.names[key].of, {"i": node}, primes, law
+            )
+            for _ in range(primes):
+                term = None if term is None else term[1]
+            total = self.field.add(total, self.field.mul({(): p}, term or {}))
+        return total
 
-    def _definition(
-        self, g: Generator, on_poly: Callable[[Poly], Poly], on_index: Callable[[int], int]
-    ) -> Any:
-        """What a definition says, factors written out, after renaming."""
-
-        def plain(p: Poly) -> frozenset[tuple[int, Number]]:
-            return frozenset(on_poly(p).items())
-
-        args = [{(plain(self.field.denominator(key)), plain(p)) for key, p in arg.items()} for arg in g.args]
-        number = on_index(g.number) if g.kind in ("sign", "sin") else g.number
-        return g.kind, g.name, None if g.base is None else plain(g.base), args, number
-
-
-def _letter(g: Generator) -> str:
-    """The node letter of a free generator, "" for another one."""
-    return split_name(g.name.rstrip("'"))[1] if g.kind == "free" else ""
+    def _along_edge(self, value: Value, node: str, where: str) -> Value:
+        """A value at a node, linear in the sums over its neighbours, with each replaced by its term."""
+        numerator, key = self.field.fraction(value)
+        table = self.replay.table
+        sums = {k for k, g in enumerate(table) if g.kind == "sum" and g.name == node}
+        hidden = {k for f, _ in key for k in _variables(self.field.factors[f])}
+        edge: Poly = {}
+        for m, c in self.field.normal(numerator).items():
+            inside = [(k, e) for k, e in powers(m) if k in sums]
+            rest = [k for k, _ in powers(m) if k not in sums] + list(hidden)
+            if len(inside) != 1 or inside[0][1] != 1:
+                raise Invalid(f"{where}: at a node there is a part without sums, or a product of sums")
+            if any(self.replay.reaches(k, sums) for k in rest):
+                raise Invalid(f"{where}: a sum occurs in a denominator or inside a root or another function")
+            k = inside[0][0]
+            edge = self.field.ring.add(edge, {m - monomial(inside) + monomial(list(table[k].powers)): c})
+        return {key: edge} if edge else {}
