@@ -91,6 +91,7 @@ class Claim:
     listing: str
     shape: tuple[int, int]
     matrix: Any = None
+    small: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 
-from symctrl.kernel.certificate import MAX_TEXT, Certificate, Declined, Invalid, Unreadable, load
+from symctrl.kernel.certificate import MAX_TEXT, Certificate, Condition, Declined, Invalid, Unreadable, load
 from symctrl.kernel.printing import line, print_statement
 
 # The module that verifies each kind of proof, by `verify(statement, proof)`.
@@ -23,7 +23,10 @@ PROOFS = {
     "definite": "symctrl.kernel.definite",
     "conforms": "symctrl.kernel.conforms",
     "witness": "symctrl.kernel.witness",
+    "squeeze": "symctrl.kernel.squeeze",
 }
+BUNDLE_FORMAT = "symctrl-certificates/1"
+MAX_PARTS = 1000
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
 
@@ -57,6 +60,17 @@ def check_text(text: str) -> Answer:
         )
     except Exception as error:
         return Answer("declined", statement, line(f"the kernel failed: {type(error).__name__}: {error}"))
+
+
+def needed_conditions(text: str) -> list[Condition]:
+    """The conditions that the proof of a certificate needs, whatever its statement lists, in a fixed order.
+
+    Raises Unreadable, Invalid or Declined where the proof is none.
+    """
+    certificate = load(text)
+    module = import_module(PROOFS[str(certificate.proof.get("kind"))])
+    needed = module.needed_conditions(certificate.statement, certificate.proof)
+    return sorted(needed, key=lambda condition: (condition.kind, condition.of))
 
 
 def _verify(certificate: Certificate) -> str:

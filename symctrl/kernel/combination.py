@@ -7,9 +7,11 @@ is nonnegative there; it is positive where in one term each g is positive and ea
 quotient has the sign of its numerator times the factors of odd exponent in its denominator, and that of
 its numerator alone where those factors are positive; all factors are nonzero on the domain.
 
+The terms add up to the quantity, or to it times a positive POLY (`times`).
 A term is `[c, [g, ..], [POLY, ..]]`. A g is the index of an assumption that a scalar is positive or
 nonnegative, and stands for the numerator of that scalar times its factors of odd exponent; or it is a
-POLY whose sign the kernel knows (a root, an absolute value, an exponential, ..).
+POLY whose sign the kernel knows (a root, an absolute value, an exponential, ..); or `{"given", "vector"}`, which is
+x'Px for an assumed definite P and a vector x of POLYs.
 """
 
 from __future__ import annotations
@@ -36,6 +38,7 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     fields(proof, ("kind", "generators", "factors", "hints", "entries"), "proof")
     sums = SymbolSums()
     replay = Replay(statement, proof, sums)
+    sums.replay = replay
     replay.assume_given()
     outputs = replay.claim()
     test = SumIdentity(replay, sums)
@@ -52,13 +55,16 @@ def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where:
     replay, ring = test.replay, test.replay.field.ring
     total: Poly = {}
     positive = False
-    for k, term in enumerate(typed(fields(entry, ("terms",), where)["terms"], list, where)):
+    table = fields(entry, ("terms",), where, optional=("times",))
+    times = _positive(replay, table["times"], where) if "times" in table else {0: 1}
+    for k, term in enumerate(typed(table["terms"], list, where)):
         product, sure = _term(replay, term, f"{where}, term {k}")
         total = ring.add(total, product)
         positive = positive or sure
     if strict and not positive:
         raise Invalid(f"{where}: no term is certainly positive")
-    sides: list[Value] = [{(): ring.add(form, ring.scale(total, -1))} for form in _forms(replay, value)]
+    forms = [ring.mul(times, form) for form in _forms(replay, value)]
+    sides: list[Value] = [{(): ring.add(form, ring.scale(total, -1))} for form in forms]
     if not any(_is_zero(test, side, where) for side in sides[:-1]):
         test.require_zero(sides[-1], where)
 
@@ -101,11 +107,20 @@ def _term(replay: Replay, value: Any, where: str) -> tuple[Poly, bool]:
     return result, positive
 
 
+def _positive(replay: Replay, value: Any, where: str) -> Poly:
+    p = replay.poly(value, where)
+    if replay.signs.of_learned(p) != SIGNS["positive"]:
+        raise Invalid(f"{where}: {replay.signs.printer.poly(p)[:200]} is not known to be positive")
+    return p
+
+
 def _nonnegative(replay: Replay, g: Any, where: str) -> tuple[Poly, bool]:
     """A polynomial that is not negative, and whether it is positive."""
+    if type(g) is dict:
+        return _form(replay, g, where), False
     if type(g) is list:
         p = replay.poly(g, where)
-        signs = replay.signs.of(p)
+        signs = replay.signs.of_learned(p)
         if not signs <= SIGNS["nonnegative"]:
             raise Invalid(f"{where}: the sign of {replay.signs.printer.poly(p)[:200]} is not known")
         return p, 0 not in signs
@@ -114,3 +129,23 @@ def _nonnegative(replay: Replay, g: Any, where: str) -> tuple[Poly, bool]:
     if kind not in ("positive", "nonnegative"):
         raise Invalid(f"{where}: assumption {k} says {kind}, which gives no factor of a term")
     return replay.signs.carrier(replay.given[k][0]), kind == "positive"
+
+
+def _form(replay: Replay, g: dict[str, Any], where: str) -> Poly:
+    """x'Px for a matrix P that is assumed to be definite or semidefinite."""
+    table = fields(g, ("given", "vector"), where)
+    k = natural(table["given"], len(replay.given), where)
+    n = replay.statement.given[k].size
+    x = [replay.poly(entry, where) for entry in typed(table["vector"], list, where)]
+    if not replay.statement.given[k].kind.startswith("positive_") or len(x) != n:
+        raise Invalid(f"{where}: assumption {k} is not about a {len(x)}x{len(x)} matrix that is definite")
+    field = replay.field
+    total: Value = {}
+    for r in range(n):
+        for c in range(n):
+            product = field.mul({(): field.ring.mul(x[r], x[c])}, replay.given[k][r + n * c])
+            total = field.add(total, product)
+    numerator, key = field.fraction(total)
+    if key:
+        raise Invalid(f"{where}: the matrix of assumption {k} has denominators")
+    return numerator

@@ -161,7 +161,7 @@ class Signs:
 
     def require(self, kind: str, p: Poly, what: str) -> None:
         """The polynomial must have this kind of sign: known, or a condition. Raises Invalid if never."""
-        if self.of(p) <= SIGNS[kind] or (self._learned_minors() and self.of(p) <= SIGNS[kind]):
+        if self.of(p) <= SIGNS[kind] or self.of_learned(p) <= SIGNS[kind]:
             return
         if not self.of(p) & SIGNS[kind]:
             raise Invalid(f"{what} must be {kind}, and it never is: {self.printer.poly(p)[:200]}")
@@ -174,15 +174,18 @@ class Signs:
         if not self.of_value(value) <= SIGNS[kind]:
             self.require(kind, self.carrier(value), what)
 
-    def _learned_minors(self) -> bool:
-        """Learn the principal minors of assumed matrices; was there anything to learn?"""
+    def of_learned(self, p: Poly) -> SignSet:
+        """The signs that p may have, also by the principal minors of the assumed matrices."""
+        self._learn_minors()
+        return self.of(p)
+
+    def _learn_minors(self) -> None:
         matrices, self._matrices = self._matrices, []
         for matrix, signs in matrices:
             for size in range(1, min(MAX_MINOR, len(matrix)) + 1):
                 for rows in combinations(range(len(matrix)), size):
                     minor = determinant(self.field, [[matrix[r][c] for c in rows] for r in rows])
                     self._learn(self.carrier(minor), signs)
-        return bool(matrices)
 
 
 def determinant(field: Field, matrix: list[list[Value]]) -> Value:

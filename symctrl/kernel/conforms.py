@@ -11,13 +11,18 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Invalid, Statement, fields
+from symctrl.kernel.certificate import Condition, Invalid, Statement, fields
+from symctrl.kernel.replay import require_conditions
 
 
 def verify(statement: Statement, proof: dict[str, Any]) -> None:
     """Raises Invalid for another claim, or for a proof or conditions where there is nothing to prove."""
+    require_conditions(statement, needed_conditions(statement, proof))
+
+
+def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """None: that a definition is well formed needs no conditions. Raises Invalid for another claim or proof."""
     if statement.claim.kind != "conforms":
         raise Invalid(f"a proof of kind conforms does not prove a claim of the kind {statement.claim.kind}")
     fields(proof, ("kind",), "proof")
-    if statement.conditions:
-        raise Invalid("that a definition is well formed needs no conditions")
+    return set()

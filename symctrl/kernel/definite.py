@@ -2,16 +2,15 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorems: A (x) I and block diagonal matrices have the definiteness of their parts. A = L D L' and
-dominance of A - L L' are in `matrices`. Sylvester: a symmetric A all of whose leading principal minors
-are positive is definite. Congruence: A = sum of C'PC with assumed definite or semidefinite P is
-semidefinite, since x'Ax is the sum of (Cx)'P(Cx); it is definite where no x but 0 has Cx = 0 for all C of
-definite P, that is, where the sum of C'C over those is definite (Horn and Johnson, Matrix Analysis, 7.1,
-7.2).
+Theorems: A (x) I and block diagonal matrices have the definiteness of their parts; C'PC is semidefinite with P, and
+definite if C is invertible too. A = L D L' and dominance of A - L L' are in `matrices`. Sylvester: a symmetric A all
+of whose leading principal minors are positive is definite. Gershgorin: so is one whose diagonal entries exceed the sums
+of the absolute values beside them. A sum of g P with g >= 0 and semidefinite P is semidefinite (Horn and Johnson, Matrix
+Analysis, 7.1, 7.2, 6.1). A claim about all small positive values of a gain: a polynomial in it has the sign of its lowest
+coefficient there.
 
-The `matrix` of a proof is the claim's tree with a leaf proof in the place of each block of entries. Rows
-of `lower` go up to the diagonal. A congruence names a factor C by its rows of POLYs or numbers and P by
-its assumption; of the factors of definite P the rational rows count.
+The `matrix` of a proof is the claim's tree with a leaf proof in the place of each block of entries. Rows of `lower` go up
+to the diagonal.
 """
 
 from __future__ import annotations
@@ -31,9 +30,10 @@ from symctrl.kernel.certificate import (
     typed,
 )
 from symctrl.kernel.combination import prove_sign
-from symctrl.kernel.conditions import determinant
+from symctrl.kernel.conditions import SIGNS, determinant
 from symctrl.kernel.field import Value
-from symctrl.kernel.matrices import Rows, eliminate, has_factors, is_dominant
+from symctrl.kernel.matrices import Rows, has_factors, is_dominant
+from symctrl.kernel.polynomial import monomial, powers
 from symctrl.kernel.replay import Replay, require_conditions
 from symctrl.kernel.sums import SumIdentity, SymbolSums
 
@@ -54,6 +54,7 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     fields(proof, ("kind", "generators", "factors", "hints", "matrix"), "proof")
     sums = SymbolSums()
     replay = Replay(statement, proof, sums)
+    sums.replay = replay
     replay.assume_given()
     outputs = replay.claim()
     test = SumIdentity(replay, sums)
@@ -73,16 +74,34 @@ def _prove_tree(test: SumIdentity, outputs: Sequence[Value], tree: Any, proof: A
             raise Invalid(f"the proof has {len(parts)} blocks, the claim {len(tree['blocks'])}")
         for block, part in zip(tree["blocks"], parts, strict=True):
             _prove_tree(test, outputs, block, part, strict)
+    elif "congruence" in tree:
+        factor = [[outputs[k] for k in row] for row in tree["factor"]]
+        if strict:
+            _require_invertible(test.replay, factor)
+        inner = fields(proof, ("congruence",), "matrix")["congruence"]
+        _prove_tree(test, outputs, tree["congruence"], inner, strict)
     else:
         matrix = [[outputs[k] for k in row] for row in tree["entries"]]
         _prove_entries(test, matrix, typed(proof, dict, "matrix"), strict)
 
 
+def _require_invertible(replay: Replay, factor: Matrix) -> None:
+    if len(factor) != len(factor[0]):
+        raise Invalid("C'PC is definite for an invertible C, and this one is not square")
+    if len(factor) > MAX_MINORS:
+        raise Declined(f"a determinant of more than {MAX_MINORS} rows")
+    replay.inv(determinant(replay.field, factor))
+
+
 def _prove_entries(test: SumIdentity, matrix: Matrix, leaf: Mapping[str, Any], strict: bool) -> None:
     if leaf.keys() == {"minors"}:
         _by_minors(test, matrix, leaf["minors"])
-    elif leaf.keys() == {"congruence"}:
-        _by_congruence(test, matrix, leaf["congruence"], strict)
+    elif leaf.keys() == {"rows"}:
+        _by_rows(test, matrix, leaf["rows"])
+    elif leaf.keys() == {"given"}:
+        _by_assumption(test, matrix, leaf["given"], strict)
+    elif leaf.keys() == {"sum"}:
+        _by_sum(test, matrix, leaf["sum"], strict)
     else:
         prove_leaf([[_number(test.replay, value) for value in row] for row in matrix], leaf, strict)
 
@@ -111,7 +130,7 @@ def prove_leaf(rows: Rows, leaf: Mapping[str, Any], strict: bool) -> None:
         if not is_dominant(rows, _triangle(table["lower"], n), scale, strict):
             raise Invalid("the matrix less L L' is not diagonally dominant with the scale of the proof")
     else:
-        raise Invalid("a leaf proof is one of ldl, dominant, minors and congruence")
+        raise Invalid("a leaf proof is one of ldl, dominant, minors, rows, given and sum")
 
 
 def _triangle(value: Any, n: int) -> list[list[Fraction]]:
@@ -133,74 +152,99 @@ def _by_minors(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
         raise Invalid(f"the matrix has {n} leading principal minors, and the proof {len(proofs)}")
     if n > MAX_MINORS:
         raise Declined(f"minors of more than {MAX_MINORS} rows")
-    for i in range(n):
-        for j in range(i):
-            where = f"symmetry in row {i + 1}, column {j + 1}"
-            test.require_zero(field.sub(matrix[i][j], matrix[j][i]), where)
+    _require_symmetric(test, matrix)
     for k, proof in enumerate(proofs, start=1):
         minor = determinant(field, [row[:k] for row in matrix[:k]])
-        prove_sign(test, minor, proof, strict=True, where=f"minor {k}")
+        prove_sign(test, _lowest(test.replay, minor), proof, strict=True, where=f"minor {k}")
 
 
-def _by_congruence(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None:
+def _by_rows(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
+    """In each row the diagonal entry exceeds the sum of the absolute values of the others, whose signs are known."""
+    replay = test.replay
+    if len(typed(proofs, list, "rows")) != len(matrix):
+        raise Invalid(f"the matrix has {len(matrix)} rows, and the proof {len(proofs)}")
+    _require_symmetric(test, matrix)
+    for r, (row, proof) in enumerate(zip(matrix, proofs, strict=True)):
+        left = row[r]
+        for c, entry in enumerate(row):
+            if c != r and entry:
+                signs = replay.signs.of_value(entry)
+                if not (signs <= SIGNS["nonnegative"] or signs <= {-1, 0}):
+                    raise Invalid(f"the sign of the entry in row {r + 1}, column {c + 1} is not known")
+                left = replay.field.sub(left, entry) if 1 in signs else replay.field.add(left, entry)
+        prove_sign(test, _lowest(replay, left), proof, strict=True, where=f"row {r + 1}")
+
+
+def _lowest(replay: Replay, value: Value) -> Value:
+    """For a claim about small values of a gain: the coefficient of its lowest power, which decides the sign."""
+    small = replay.statement.claim.small
+    if small is None:
+        return value
+    if small not in replay.free:
+        return value
+    p = replay.field.normal(replay.signs.carrier(value))
+    gain = replay.free[small]
+    if any(k != gain and replay.reaches(k, {gain}) for m in p for k, _ in powers(m)):
+        raise Declined(f"{small} occurs inside a root or another function")
+    least = min((dict(powers(m)).get(gain, 0) for m in p), default=0)
+    lowest = {m - monomial([(gain, least)]): c for m, c in p.items() if dict(powers(m)).get(gain, 0) == least}
+    return {(): lowest} if lowest else {}
+
+
+def _by_assumption(test: SumIdentity, matrix: Matrix, k: Any, strict: bool) -> None:
     replay, n = test.replay, len(matrix)
-    total: Matrix = [[{} for _ in range(n)] for _ in range(n)]
-    gram = [[Fraction(0)] * n for _ in range(n)]
-    for part in typed(parts, list, "congruence"):
-        table = fields(part, ("factor", "given"), "congruence")
-        k = natural(table["given"], len(replay.given), "given")
-        assumption = replay.statement.given[k]
-        if assumption.kind not in _CONES:
-            raise Invalid(f"assumption {k} says {assumption.kind}, which gives no definite matrix")
-        factor = _factor(replay, table["factor"], assumption.size, n)
-        _add_product(replay, total, factor, replay.given[k])
-        if assumption.kind in ("positive", "positive_definite"):
-            _add_gram(replay, gram, factor)
-    for i in range(n):
-        for j in range(n):
-            where = f"the sum of C'PC in row {i + 1}, column {j + 1}"
-            test.require_zero(replay.field.sub(matrix[i][j], total[i][j]), where)
-    if strict:
-        found = eliminate(gram)
-        if found is None or not found.definite:
-            raise Invalid("the factors C of definite matrices do not have full rank together")
+    assumption = replay.statement.given[natural(k, len(replay.given), "given")]
+    kinds = ("positive_definite",) if strict else ("positive_definite", "positive_semidefinite")
+    if assumption.kind not in kinds or assumption.size != n:
+        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows, which is not the claim")
+    for r in range(n):
+        for c in range(n):
+            where = f"the assumed matrix in row {r + 1}, column {c + 1}"
+            test.require_zero(replay.field.sub(matrix[r][c], replay.given[k][r + n * c]), where)
 
 
-_CONES = ("positive", "nonnegative", "positive_definite", "positive_semidefinite")
+def _by_sum(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None:
+    """A = sum of g P with g >= 0 and rational P; definite where for one of them g > 0 and P is definite."""
+    field, n = test.replay.field, len(matrix)
+    left = [list(row) for row in matrix]
+    definite = False
+    for part in typed(parts, list, "sum"):
+        table = fields(part, ("of", "rows", "proof"), "sum")
+        g = test.replay.poly(table["of"], "sum")
+        signs = test.replay.signs.of_learned(g)
+        if not signs <= SIGNS["nonnegative"]:
+            raise Invalid(f"{test.replay.signs.printer.poly(g)[:200]} is not known to be nonnegative")
+        rows = [_numbers(row, n, "rows") for row in typed(table["rows"], list, "rows")]
+        sure = strict and not definite and signs == SIGNS["positive"]
+        if len(rows) != n:
+            raise Invalid(f"a part of the sum has {len(rows)} rows, and the matrix {n}")
+        definite = _proves(rows, table["proof"], sure) or definite
+        for r in range(n):
+            for c in range(n):
+                term = {(): field.ring.scale(g, rows[r][c])} if rows[r][c] else {}
+                left[r][c] = field.sub(left[r][c], term)
+    for r in range(n):
+        for c in range(n):
+            test.require_zero(left[r][c], f"the sum in row {r + 1}, column {c + 1}")
+    if strict and not definite:
+        raise Invalid("no part of the sum is certainly definite")
 
 
-def _factor(replay: Replay, value: Any, rows: int, columns: int) -> Matrix:
-    table = typed(value, list, "factor")
-    if len(table) != rows or any(len(typed(row, list, "factor")) != columns for row in table):
-        raise Invalid(f"a factor must have {rows} rows and {columns} columns")
-    return [[_entry(replay, entry) for entry in row] for row in table]
+def _proves(rows: Rows, leaf: Any, strictly: bool) -> bool:
+    """Is the part shown definite? Raises Invalid where it is not even shown semidefinite."""
+    leaf = typed(leaf, dict, "proof")
+    if strictly:
+        try:
+            prove_leaf(rows, leaf, True)
+            return True
+        except Invalid:
+            pass
+    prove_leaf(rows, leaf, False)
+    return False
 
 
-def _entry(replay: Replay, value: Any) -> Value:
-    if type(value) is list:
-        p = replay.poly(value, "factor")
-        return {(): p} if p else {}
-    return replay.constant(rational(value, "factor"))
-
-
-def _add_product(replay: Replay, total: Matrix, c: Matrix, p: Sequence[Value]) -> None:
-    """total += C'PC; P column by column."""
-    field, m = replay.field, len(c)
-    for i in range(len(total)):
-        for k in range(m):
-            if not c[k][i]:
-                continue
-            for l in range(m):  # noqa: E741
-                left = field.mul(c[k][i], p[k + m * l])
-                for j in range(len(total)):
-                    total[i][j] = field.add(total[i][j], field.mul(left, c[l][j]))
-
-
-def _add_gram(replay: Replay, gram: list[list[Fraction]], c: Matrix) -> None:
-    """gram += the sum of r'r over the rows r of C that are rational, which is at most C'C."""
-    for row in c:
-        numbers = [number for number in map(replay.field.rational, row) if number is not None]
-        if len(numbers) == len(row):
-            for i, a in enumerate(numbers):
-                for j, b in enumerate(numbers):
-                    gram[i][j] += a * b
+def _require_symmetric(test: SumIdentity, matrix: Matrix) -> None:
+    for i in range(len(matrix)):
+        for j in range(i):
+            where = f"symmetry in row {i + 1}, column {j + 1}"
+            test.require_zero(test.replay.field.sub(matrix[i][j], matrix[j][i]), where)

@@ -175,7 +175,8 @@ def _claim(value: Any, listings: Mapping[str, Listing]) -> Claim:
     allowed = ("equal", "nonnegative", "positive", "conforms", *DEFINITE_KINDS)
     kind = _one_of(kind, allowed, "claim")
     shaped = kind not in DEFINITE_KINDS
-    table = fields(value, ("kind", "shape" if shaped else "matrix", "listing"), "claim")
+    optional = () if shaped else ("small",)
+    table = fields(value, ("kind", "shape" if shaped else "matrix", "listing"), "claim", optional)
     listing = _one_of(table["listing"], listings, "claim")
     count = len(listings[listing].outputs)
     if not shaped:
@@ -183,7 +184,8 @@ def _claim(value: Any, listings: Mapping[str, Listing]) -> Claim:
         size = _tree(table["matrix"], count, used)
         if len(used) != count:
             raise Invalid("claim: the matrix does not use every output of its listing")
-        return Claim(kind, listing, (size, size), table["matrix"])
+        small = text_field(table["small"], "claim") if "small" in table else None
+        return Claim(kind, listing, (size, size), table["matrix"], small)
     shape = [natural(n, MAX_SIZE, "claim") for n in typed(table["shape"], list, "claim")]
     sides = 2 if kind == "equal" else 1
     if len(shape) != 2 or shape[0] * shape[1] == 0 or shape[0] * shape[1] * sides != count:
@@ -203,6 +205,13 @@ def _tree(value: Any, count: int, used: set[int]) -> int:
     if "kron_identity" in tree:
         table = fields(tree, ("kron_identity", "size"), "matrix")
         size = natural(table["size"], MAX_SIZE, "matrix") * _tree(table["kron_identity"], count, used)
+    elif "congruence" in tree:
+        table = fields(tree, ("congruence", "factor"), "matrix")
+        rows = typed(table["factor"], list, "matrix")
+        size = len(typed(rows[0], list, "matrix")) if rows else 0
+        if len(rows) != _tree(table["congruence"], count, used) or any(len(row) != size for row in rows):
+            raise Invalid("claim: the factor of a congruence does not fit its matrix")
+        used.update(natural(k, count, "matrix") for row in rows for k in row)
     else:
         blocks = typed(fields(tree, ("blocks",), "matrix")["blocks"], list, "matrix")
         size = sum(_tree(block, count, used) for block in blocks)

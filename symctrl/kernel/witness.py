@@ -45,11 +45,11 @@ Graph = Mapping[str, Sequence[str]]
 
 @dataclass(frozen=True, slots=True)
 class Point:
-    """Where the statement is evaluated; `node` is what the letter i of the claim stands for, if any."""
+    """Where the statement is evaluated; `binding` has the nodes that the letters of the claim stand for."""
 
     values: Mapping[str, Fraction]
     graph: Graph
-    node: str
+    binding: Mapping[str, str]
     fails: Callable[[Sequence[Interval]], bool]
 
 
@@ -78,7 +78,7 @@ def _refute(statement: Statement, place: Point, bits: int) -> None:
             entries = [walk.output(ref, binding) for ref in assumption.of]
             if not _holds(assumption, entries):
                 raise Invalid(f"the values do not satisfy assumption {k + 1}, {assumption.text[:80]!r}")
-    outputs = walk.outputs(statement.claim.listing, {"i": place.node} if place.node else {})
+    outputs = walk.outputs(statement.claim.listing, place.binding)
     if not place.fails(outputs):
         raise Invalid("the claim holds at the values of the witness")
 
@@ -119,15 +119,21 @@ def _read(statement: Statement, proof: dict[str, Any]) -> Point:
     fleet = any(per_node(key) for key in (*statement.scalars, *statement.names)) or any(
         meaning.kind in ("sum", "total") for meaning in statement.names.values()
     )
-    node_wanted = bool(statement.listings[claim.listing].letters)
+    letters = statement.listings[claim.listing].letters
+    wanted = [name for letter, name in (("i", "node"), ("j", "neighbour")) if letter in letters]
     which = "x" if claim.matrix is not None else "at"
     extra = ["graph"] if fleet else []
-    fields(proof, ("kind", "values", which, *extra, *(["node"] if node_wanted else [])), "proof")
+    fields(proof, ("kind", "values", which, *extra, *wanted), "proof")
     graph = read_graph(proof["graph"]) if fleet else {}
-    node = typed(proof["node"], str, "node") if node_wanted else ""
-    if node_wanted and node not in graph:
-        raise Invalid(f"the graph has no node {node[:40]!r}")
-    return Point(_values(statement, proof["values"], graph), graph, node, _failure(statement, proof[which]))
+    binding = {"i" if name == "node" else "j": typed(proof[name], str, name) for name in wanted}
+    for node in binding.values():
+        if node not in graph:
+            raise Invalid(f"the graph has no node {node[:40]!r}")
+    if len(binding) == 2 and binding["j"] not in graph[binding["i"]]:
+        raise Invalid("the node and its neighbour are not joined by an edge")
+    if claim.small is not None:
+        raise Invalid("a claim about small values of a gain is not refuted at one value")
+    return Point(_values(statement, proof["values"], graph), graph, binding, _failure(statement, proof[which]))
 
 
 def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Fraction]:
@@ -197,6 +203,8 @@ def _parts(tree: Any, x: Sequence[Fraction]) -> Iterator[tuple[list[list[int]], 
     """The entries of each block on the diagonal, with the part of x that belongs to it."""
     if "entries" in tree:
         yield tree["entries"], x
+    elif "congruence" in tree:
+        raise Declined("a witness against a congruence")
     elif "kron_identity" in tree:
         for k in range(tree["size"]):
             yield from _parts(tree["kron_identity"], x[k :: tree["size"]])

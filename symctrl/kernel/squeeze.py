@@ -1,0 +1,53 @@
+"""Equality from assumptions that are not equations of the sides: a power of the difference is not positive.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem: if -(a - b)^2n is nonnegative, then a = b. So an equation follows from sums of squares that vanish and from
+signs: 0 = |x|^2 gives x = 0, and a^2 = b^2 with a, b >= 0 gives a = b.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from symctrl.kernel.certificate import Condition, Invalid, Statement, fields, natural, typed
+from symctrl.kernel.combination import prove_sign
+from symctrl.kernel.replay import Replay, require_conditions
+from symctrl.kernel.sums import SumIdentity, SymbolSums
+
+MAX_POWER = 4
+
+
+def verify(statement: Statement, proof: dict[str, Any]) -> None:
+    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
+    require_conditions(statement, needed_conditions(statement, proof))
+
+
+def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """The conditions under which the proof shows the claim, whatever the statement lists; see `verify`.
+
+    `entries` has for each entry {"power": n, "terms": ..}: the combination is that of -(left - right)^2n.
+    """
+    if statement.claim.kind != "equal":
+        raise Invalid(f"a squeeze does not prove a claim of the kind {statement.claim.kind}")
+    fields(proof, ("kind", "generators", "factors", "hints", "entries"), "proof")
+    sums = SymbolSums()
+    replay = Replay(statement, proof, sums)
+    sums.replay = replay
+    replay.assume_given()
+    outputs = replay.claim()
+    test = SumIdentity(replay, sums)
+    count = len(outputs) // 2
+    entries = typed(proof["entries"], list, "entries")
+    if len(entries) != count:
+        raise Invalid(f"the claim has {count} entries, and the proof has {len(entries)}")
+    for k, entry in enumerate(entries):
+        where = f"entry {k}"
+        table = fields(entry, ("power", "terms"), where, optional=("times",))
+        n = natural(table.pop("power"), MAX_POWER + 1, where)
+        if n == 0:
+            raise Invalid(f"{where}: the power 0 says nothing of the difference")
+        difference = replay.field.sub(outputs[k], outputs[count + k])
+        power = replay.field.power(replay.field.mul(difference, difference), n)
+        prove_sign(test, replay.field.neg(power), table, False, where)
+    return replay.close()
