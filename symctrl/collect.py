@@ -17,7 +17,7 @@ from symctrl.expr import Expr, walk
 from symctrl.graph import Instruction, Tape, read, unfolded
 from symctrl.literals import as_sx, is_constant_name
 from symctrl.problem import ADVICE, Advice, Assumption, Claim, Meaning, Output, Problem, split, star
-from symctrl.records import Named, Rate, Record, Sum, Undefined, letters
+from symctrl.records import Named, Rate, Record, Sum, Undefined
 from symctrl.structure import lowered
 from symctrl.statements import Bound, Definite, Equal, Hint, Nonzero, Statement
 
@@ -88,18 +88,18 @@ class Collector:
 
     # Listings
 
-    def add(self, name: str, exprs: Sequence[Expr]) -> None:
-        """The listing of expressions one after another, and all that it reaches."""
+    def add(self, name: str, exprs: Sequence[Expr], at_neighbour: bool = False) -> None:
+        """The listing of expressions one after another, and all that it reaches.
+
+        at_neighbour: the expressions are written for node j, and the listing shall be for node i.
+        """
         if name in self.listings:
             return
         records: dict[str, Record] = {}
-        nodes: set[str] = set()
         for expr in exprs:
-            nodes |= letters(expr)
             for node in walk(expr):
                 if node.op == "deferred":
                     records[node.args[0].label] = node.args[0]
-        at_neighbour = nodes == {"j"} and name not in ("claim",) and not name.startswith("given")
         with unfolded():
             entries = ca.vertcat(*[as_sx(entry) for expr in exprs for entry in expr.entries])
             symbols = ca.symvar(entries)
@@ -155,7 +155,7 @@ class Collector:
         before = record.law if isinstance(record, Rate) else None
         if before is not None:
             self._law(before)
-        self.add(shown, [record.body])
+        self.add(shown, [record.body], at_neighbour=isinstance(record, Rate) and node == "j")
         if isinstance(record, Rate):
             self._reach_motion(shown, set())
 

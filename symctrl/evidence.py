@@ -7,6 +7,7 @@ the largest intermediate value. The twins of an equation are the claims in which
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -87,4 +88,4 @@ def _is_rate(side: Expr) -> bool:
 
 
 def _is_zero(term: Expr) -> bool:
-    return all(entry == 0 for entry in term.entries)
+    return all(isinstance(entry, Fraction) and entry == 0 for entry in term.entries)

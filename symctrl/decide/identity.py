@@ -1,20 +1,15 @@
 """Equations: left minus right is zero on the domain, decided in the exact domain.
 
-In a fleet the claim holds for every undirected graph if it holds for a generic node and edge: the sum over all nodes of
-sums over their neighbours is the sum over all edges, each taken in both directions.
+Sums over neighbours are polynomials in sums of monomials, so that what belongs to one node is an identity of its own.
+The sum over all nodes of c(i) times a sum over the neighbours j of u(j) is a sum over all edges, each taken in both
+directions: it vanishes for every undirected graph if c(i) u(j) + c(j) u(i) does for a generic edge.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Any
-
 from symctrl.decide.session import Session
-from symctrl.domains.field import Exact, Key
+from symctrl.domains.field import Exact
 from symctrl.problem import star
-
-EDGE = {"i": "i", "j": "j"}
-REVERSED = {"i": "j", "j": "i"}
 
 
 def residuals(session: Session) -> list[Exact]:
@@ -26,64 +21,70 @@ def residuals(session: Session) -> list[Exact]:
 
 def vanishes(session: Session, value: Exact) -> bool:
     """Is the value zero on the domain, for every graph where it has sums?"""
-    if session.domain.is_zero(value):
-        return True
-    totals = [k for k in session.sums if _is_total(session, k)]
-    parts = _by_sums(session, value, totals)
-    if parts is None:
-        return False
-    rest, linear = parts
-    if not linear:
-        return _vanishes_on_edge(session, [(value, EDGE)])
-    if not session.domain.is_zero(rest) or any(_at_a_node(session, c) for c in linear.values()):
-        return False
-    node = _recombined(session, linear, {"i": "i"})
-    if session.domain.is_zero(node):
-        return True
-    return _vanishes_on_edge(session, [(node, EDGE), (_recombined(session, linear, {"i": "j"}), REVERSED)])
-
-
-def _vanishes_on_edge(session: Session, ends: Sequence[tuple[Exact, dict[str, str]]]) -> bool:
-    """The parts free of sums are zero, and the linear ones add up to zero over the ends of the generic edge."""
     domain = session.domain
+    if domain.is_zero(value):
+        return True
+    coefficients = _of_totals(session, value)
+    if not coefficients:
+        return False
+    ends = [(_at_node(session, coefficients, node), node) for node in ("i", "j")]
+    if domain.is_zero(ends[0][0]):
+        return True
     edge: Exact = {}
-    for value, binding in ends:
-        here = [k for k, (name, _, _) in session.sums.items() if f".{binding['i']}" in name]
-        parts = _by_sums(session, value, here)
-        if parts is None or not domain.is_zero(parts[0]):
+    for end, node in ends:
+        part = _along_edge(session, end, node)
+        if part is None:
             return False
-        edge = domain.add_(edge, _recombined(session, parts[1], binding))
+        edge = domain.add_(edge, part)
     return domain.is_zero(edge)
 
 
-def _recombined(session: Session, linear: dict[int, Exact], binding: dict[str, str]) -> Exact:
-    """The linear combination with each sum replaced by what it sums."""
+def _of_totals(session: Session, value: Exact) -> dict[int, Exact] | None:
+    """The coefficients of a linear combination of totals, which belong to no node; None where it is none."""
+    parts = _linear_parts(session, value, set(session.totals))
+    if parts is None or not session.domain.is_zero(parts[0]):
+        return None
+    field = session.domain.field
+    if any(field.letters(k) for c in parts[1].values() for p in c.values() for k in field.occurring(p)):
+        return None
+    return parts[1]
+
+
+def _at_node(session: Session, coefficients: dict[int, Exact], node: str) -> Exact:
+    """The combination of what the totals sum, at one node."""
     total: Exact = {}
-    for k, c in sorted(linear.items()):
-        total = session.domain.add_(total, session.domain.mul_(c, _summand(session, k, binding)))
+    for k, c in sorted(coefficients.items()):
+        name, order, law = session.totals[k]
+        of = session.problem.names[star(name)].of
+        assert of is not None
+        term = session.environment.output(of, {"i": node}, order, law)
+        for _ in range(order):
+            term = term.derivative if term.derivative is not None else {}
+        total = session.domain.add_(total, session.domain.mul_(c, term))
     return total
 
 
-def _summand(session: Session, k: int, binding: dict[str, str]) -> Exact:
-    """What a sum's generator sums: the summand, or its derivative of the generator's order."""
-    name, order, law = session.sums[k]
-    meaning = session.problem.names[star(name)]
-    assert meaning.of is not None
-    value = session.environment.output(meaning.of, binding, order, law)
-    for _ in range(order):
-        value = value.derivative if value.derivative is not None else {}
-    result: Exact = value
-    return result
-
-
-def _by_sums(session: Session, value: Exact, sums: Sequence[int]) -> tuple[Exact, dict[int, Exact]] | None:
-    """The part free of the sums and the coefficient of each; None where they occur otherwise than linearly."""
+def _along_edge(session: Session, value: Exact, node: str) -> Exact | None:
+    """A value at a node that is linear in sums over its neighbours, each replaced by its term; None where it is not."""
     field, domain = session.domain.field, session.domain
-    columns = {field.size - 1 - k: k for k in sums}
-    value = domain.simplified(value)
-    if _hidden(session, value) & set(sums):
+    sums = {k for k, g in enumerate(field.generators) if g.kind == "sum" and g.name == node}
+    parts = _linear_parts(session, value, sums)
+    if parts is None or not domain.is_zero(parts[0]):
         return None
-    parts: dict[int, dict[Key, dict[tuple[int, ...], Any]]] = {}
+    edge: Exact = {}
+    for k, c in sorted(parts[1].items()):
+        edge = domain.add_(edge, domain.mul_(c, domain.polynomial(field.generators[k].argument)))
+    return edge
+
+
+def _linear_parts(session: Session, value: Exact, wanted: set[int]) -> tuple[Exact, dict[int, Exact]] | None:
+    """The part free of the wanted generators and the coefficient of each; None where they occur otherwise than linearly."""
+    field = session.domain.field
+    columns = {field.size - 1 - k: k for k in wanted}
+    value = session.domain.simplified(value)
+    if _hidden(session, value) & wanted:
+        return None
+    parts: dict[int, dict[tuple[tuple[int, int], ...], dict[tuple[int, ...], object]]] = {}
     for key, p in value.items():
         for exponents, c in p.terms():
             present = [v for v in columns if exponents[v]]
@@ -102,25 +103,16 @@ def _hidden(session: Session, value: Exact) -> set[int]:
     """Generators in denominators, and those that opaque generators of the value are made of."""
     field = session.domain.field
     inside: set[int] = set()
-    waiting = [g for p in value.values() for g in field.occurring(p) if field.generators[g].kind != "free"]
+    waiting = [g for p in value.values() for g in field.occurring(p)]
     for key in value:
         for f, _ in key:
-            occurring = field.occurring(field.factors[f])
-            inside |= occurring
-            waiting += list(occurring)
+            inside |= field.occurring(field.factors[f])
+    waiting += list(inside)
     while waiting:
-        for g in field.made_of(waiting.pop()) - inside:
-            inside.add(g)
-            waiting.append(g)
+        g = waiting.pop()
+        if field.generators[g].kind == "sum":
+            continue
+        for k in field.made_of(g) - inside:
+            inside.add(k)
+            waiting.append(k)
     return inside
-
-
-def _at_a_node(session: Session, value: Exact) -> bool:
-    """Does the value speak of anything at a node?"""
-    field = session.domain.field
-    used = {g for p in value.values() for g in field.occurring(p)} | _hidden(session, value)
-    return any("." in field.generators[k].name for k in used if field.generators[k].kind == "free")
-
-
-def _is_total(session: Session, k: int) -> bool:
-    return session.problem.names[star(session.sums[k][0])].is_ == "total"

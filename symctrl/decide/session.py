@@ -16,15 +16,16 @@ from symctrl.domains.field import Exact, Field, Generator, OutOfGenerators, Poly
 from symctrl.domains.opaque import Knowledge, Refine
 from symctrl.domains.tangent import Pair
 from symctrl.evaluate import Environment
-from symctrl.problem import Assumption, Output, Problem, split
+from symctrl.problem import Assumption, Output, Problem, split, star
 
 MAX_RESTARTS = 40
+OTHER = {"i": "j", "j": "i"}
 Result = TypeVar("Result")
 
 
 @dataclass
 class Session:
-    """The exact domain with the problem's assumptions in it. `sums` are the generators of sums, with what they stand for.
+    """The exact domain with the problem's assumptions in it. `totals` are the generators of sums over all nodes: name, derivatives, law.
 
     `zeros` are the numerators of the equations assumed at node i.
     """
@@ -32,7 +33,7 @@ class Session:
     problem: Problem
     domain: ExactDomain
     environment: Environment = field(init=False)
-    sums: dict[int, tuple[str, int, str | None]] = field(default_factory=dict)
+    totals: dict[int, tuple[str, int, str | None]] = field(default_factory=dict)
     zeros: list[tuple[Assumption, Poly]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
@@ -53,8 +54,15 @@ class Session:
         return self.domain.polynomial(self.domain.field.variable(self._generator(name)))
 
     def value(self, at: Environment, name: str, level: int, law: str | None) -> Any:
-        """The value of a sum: a generator, with one more for each derivative."""
-        return self._sum(name, level, 0, law)
+        """The value of a sum over neighbours as a polynomial in sums of monomials, or of a total as a generator."""
+        meaning = self.problem.names[star(name)]
+        assert meaning.of is not None
+        node = split(name)[1]
+        if meaning.is_ == "total":
+            return self._total(name, level, 0, law)
+        if node not in OTHER:
+            raise Unsupported(f"{name} is a sum over the neighbours of no node")
+        return _mapped(at.output(meaning.of, {"i": node, "j": OTHER[node]}, level, law), lambda v: self._summed(v, node))
 
     def claim(self) -> list[Exact]:
         return list(self.environment.outputs(self.problem.claim.listing, {"i": "i", "j": "j"}))
@@ -71,14 +79,42 @@ class Session:
         """The value over one denominator in LaTeX."""
         return value_latex(self.domain.field, self.domain.simplified(value))
 
-    def _sum(self, name: str, level: int, order: int, law: str | None) -> Any:
+    def _total(self, name: str, level: int, order: int, law: str | None) -> Any:
         if level > 0:
-            return Pair(self._sum(name, level - 1, order, law), self._sum(name, level - 1, order + 1, law))
+            return Pair(self._total(name, level - 1, order, law), self._total(name, level - 1, order + 1, law))
         k = self._generator(name + "'" * order)
-        known = self.sums.setdefault(k, (name, order, law))
-        if order and known[2] != law:
+        if self.totals.setdefault(k, (name, order, law))[2] != law and order:
             raise Unsupported("the rates of one sum under two laws do not go into one claim")
         return self.domain.polynomial(self.domain.field.variable(k))
+
+    def _summed(self, value: Exact, node: str) -> Exact:
+        """The sum over the neighbours of a node: what belongs to the node goes before the sum."""
+        field, other = self.domain.field, OTHER[node]
+        result: Exact = {}
+        for key, p in value.items():
+            if any(other in field.letters(k) for f, _ in key for k in field.occurring(field.factors[f])):
+                raise Unsupported("a sum over neighbours that divides by what belongs to the neighbour")
+            inside = {k for k in field.occurring(p) if other in field.letters(k)}
+            if any(len(field.letters(k)) > 1 for k in inside):
+                raise Unsupported("a sum over neighbours of a function of both nodes")
+            result = self.domain.add_(result, {key: self._sums_of(p, inside, node)})
+        return result
+
+    def _sums_of(self, p: Poly, inside: set[int], node: str) -> Poly:
+        field = self.domain.field
+        columns = [field.size - 1 - k for k in inside]
+        parts: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+        for exponents, c in p.terms():
+            own, summed = list(exponents), [0] * field.size
+            for v in columns:
+                own[v], summed[v] = 0, exponents[v]
+            parts.setdefault(tuple(summed), {})[tuple(own)] = c
+        total = field.polynomial(0)
+        for summed_powers, coefficients in sorted(parts.items()):
+            monomial = field.context.from_dict({summed_powers: 1})
+            k = self.domain.opaque.generator(Generator("sum", node, monomial))
+            total = total + field.context.from_dict(coefficients) * field.variable(k)
+        return total
 
     def _generator(self, name: str) -> int:
         index = self.domain.field.index
@@ -104,6 +140,14 @@ class Session:
         for k, e in key:
             numerator = numerator * domain.field.factors[k] ** e
         domain.signs.learn(numerator, assumption.kind)
+
+
+def _mapped(value: Any, change: Callable[[Exact], Exact]) -> Any:
+    """The change of each part of a nested pair."""
+    if isinstance(value, Pair):
+        derivative = None if value.derivative is None else _mapped(value.derivative, change)
+        return Pair(_mapped(value.value, change), derivative)
+    return change(value)
 
 
 def exactly(problem: Problem, work: Callable[[Session], Result]) -> Result:

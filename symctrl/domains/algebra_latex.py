@@ -44,6 +44,8 @@ def generator_latex(field: Field, g: Generator) -> str:
     match g.kind:
         case "free":
             return name_latex(g.name.rstrip("'")) + "'" * g.name.count("'")
+        case "sum":
+            return rf"\sum_{{j}} {polynomial_latex(field, g.argument)}"
         case "root":
             index = "" if g.degree == 2 else f"[{g.degree}]"
             return rf"\sqrt{index}{{{polynomial_latex(field, g.argument)}}}"

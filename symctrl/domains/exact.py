@@ -23,7 +23,7 @@ class Recording:
     """What the kernel needs to repeat the evaluation: for each inverted value its factors, for each opaque result its value."""
 
     inverses: list[tuple[Fraction, tuple[tuple[int, int], ...]]] = field(default_factory=list)
-    results: list[tuple[str, Exact]] = field(default_factory=list)
+    results: list[Exact] = field(default_factory=list)
 
 
 class ExactDomain(Domain[Exact]):
@@ -215,7 +215,7 @@ class ExactDomain(Domain[Exact]):
 
         def evaluate(*args: Exact) -> Exact:
             result = handler(*args)
-            self.recording.results.append((op, result))
+            self.recording.results.append(result)
             return result
 
         return evaluate
@@ -226,7 +226,7 @@ class ExactDomain(Domain[Exact]):
         if exponent is not None and exponent.denominator == 1:
             return self.power(a, int(exponent))
         result = self.opaque.power(a, b)
-        self.recording.results.append(("POW", result))
+        self.recording.results.append(result)
         return result
 
     def fmin_(self, a: Exact, b: Exact) -> Exact:
@@ -255,13 +255,13 @@ class ExactDomain(Domain[Exact]):
     def proof_json(self) -> dict[str, Any]:
         """Generators, the factors that something was divided by, and each distinct inverse and opaque result once."""
         divided = {k for _, key in self.recording.inverses for k, _ in key}
-        divided |= {k for _, value in self.recording.results for key in value for k, _ in key}
+        divided |= {k for value in self.recording.results for key in value for k, _ in key}
         place = {k: n for n, k in enumerate(sorted(divided))}
         inverses = [
             {"inverse": [str(c), [[place[k], e] for k, e in key]]} for c, key in self.recording.inverses
         ]
         results = [
-            {"op": op, "is": self.field.value_json(value, place)} for op, value in self.recording.results
+            {"is": self.field.value_json(value, place)} for value in self.recording.results
         ]
         return {
             "generators": self.field.generators_json(place),

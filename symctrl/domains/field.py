@@ -14,6 +14,8 @@ from typing import Any
 
 import flint
 
+from symctrl.problem import split
+
 Poly = Any  # flint.fmpq_mpoly
 Key = tuple[tuple[int, int], ...]  # (factor, exponent), increasing: the denominator of one group
 Exact = dict[Key, Any]  # the sum of the groups numerator / denominator; no group is zero
@@ -25,9 +27,10 @@ class OutOfGenerators(Exception):
 
 @dataclass(frozen=True)
 class Generator:
-    """One variable. kind: free, root, abs, sign, cos, sin, exp, power or function.
+    """One variable. kind: free, sum, root, abs, sign, cos, sin, exp, power or function.
 
-    name: of a free symbol or a function. argument: the defining polynomial (root, abs, sign, power) or values.
+    name: of a free symbol or a function, or the node of a sum. argument: the defining polynomial (root, abs, sign,
+    power), the monomial that is summed over the node's neighbours, or values.
     """
 
     kind: str
@@ -99,6 +102,14 @@ class Field:
         """Indices of the generators that occur in p."""
         return {self.size - 1 - c for c, degree in enumerate(p.degrees()) if degree}
 
+    def letters(self, k: int) -> frozenset[str]:
+        """The generic nodes that a generator belongs to: i, j, both or none."""
+        g = self.generators[k]
+        if g.kind in ("free", "sum"):
+            node = g.name if g.kind == "sum" else split(g.name)[1]
+            return frozenset((node,) if node else ())
+        return frozenset().union(*(self.letters(v) for v in self.made_of(k)))
+
     def made_of(self, k: int) -> set[int]:
         """Indices of the generators that an opaque generator is defined over."""
         g = self.generators[k]
@@ -133,6 +144,10 @@ class Field:
         match g.kind:
             case "free":
                 return {"free": g.name}
+            case "sum":
+                ((_, *powers),) = self.json(g.argument)
+                pairs = [list(pair) for pair in zip(powers[::2], powers[1::2], strict=True)]
+                return {"sum": pairs, "node": g.name}
             case "root":
                 return {"root": g.degree, "of": self.json(g.argument)}
             case "abs":

@@ -161,7 +161,7 @@ class Opaque:
         whole, part = divmod(total.numerator * (degree // total.denominator), degree)
         result = self.domain.power(self.domain.polynomial(base), whole)
         if part:
-            g = self._generator(Generator("root", argument=base, degree=degree))
+            g = self.generator(Generator("root", argument=base, degree=degree))
             result = self.domain.mul_(result, self.domain.polynomial(self.field.variable(g) ** part))
         return result
 
@@ -174,7 +174,7 @@ class Opaque:
                 continue
             unit = self.knowledge.denominator(f"power {base} {self._text(atom)}", total.denominator)
             value = self.domain.scaled(atom, Fraction(1, unit))
-            g = self._generator(Generator("power", argument=base, exponent=value))
+            g = self.generator(Generator("power", argument=base, exponent=value))
             p = self.domain.polynomial(self.field.variable(g))
             result = self.domain.mul_(result, self.domain.power(p, int(total * unit)))
         return result
@@ -199,7 +199,7 @@ class Opaque:
         result = self.domain.constant(Fraction(1))
         for atom, c in self._atoms(a):
             base, unit = self._unit("exp", atom, c)
-            g = self._generator(Generator("exp", argument=base))
+            g = self.generator(Generator("exp", argument=base))
             e = self.domain.polynomial(self.field.variable(g))
             result = self.domain.mul_(result, self.domain.power(e, int(c * unit)))
         return result
@@ -216,8 +216,8 @@ class Opaque:
         result = (domain.constant(Fraction(1)), domain.constant(Fraction(0)))
         for atom, c in self._atoms(a):
             base, unit = self._unit("angle", atom, c)
-            k = self._generator(Generator("cos", argument=base))
-            j = self._generator(Generator("sin", argument=base, partner=k))
+            k = self.generator(Generator("cos", argument=base))
+            j = self.generator(Generator("sin", argument=base, partner=k))
             side = 1 if c > 0 else -1
             step = (
                 domain.polynomial(self.field.variable(k)),
@@ -265,7 +265,8 @@ class Opaque:
 
     # Generators and what is known
 
-    def _generator(self, wanted: Generator) -> int:
+    def generator(self, wanted: Generator) -> int:
+        """The index of the generator, made with its relations if it is new."""
         for k, g in enumerate(self.field.generators):
             if g == wanted:
                 return k
@@ -285,10 +286,10 @@ class Opaque:
         return k
 
     def _abs_generator(self, f: Poly) -> int:
-        return self._generator(Generator("abs", argument=f))
+        return self.generator(Generator("abs", argument=f))
 
     def _sign_generator(self, f: Poly) -> int:
-        return self._generator(Generator("sign", argument=f, partner=self._abs_generator(f)))
+        return self.generator(Generator("sign", argument=f, partner=self._abs_generator(f)))
 
     def _sign(self, f: Poly) -> str | None:
         known = self.domain.signs.of(f)
