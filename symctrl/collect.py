@@ -7,6 +7,7 @@ of the study's assumptions that speak only of symbols that occur.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
@@ -16,10 +17,11 @@ from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
 from symctrl.graph import Instruction, Tape, read, unfolded
 from symctrl.literals import as_sx, is_constant_name
-from symctrl.problem import ADVICE, Advice, Assumption, Claim, Meaning, Output, Problem, split, star
+from symctrl.problem import ADVICE, PROVED, Advice, Assumption, Claim, Meaning, Output, Problem, split, star
+from symctrl.reach import Reach, pruned, with_motion
 from symctrl.records import Named, Rate, Record, Sum, Undefined
-from symctrl.structure import lowered
 from symctrl.statements import Bound, Definite, Equal, Hint, Nonzero, Statement
+from symctrl.structure import lowered
 
 if TYPE_CHECKING:
     from symctrl.study import Study
@@ -45,22 +47,32 @@ class Collector:
         self._law_in_use: list[str | None] = [None]
 
     def problem(
-        self, claim: Statement, id_: str, hypotheses: Sequence[Statement] = (), small: str | None = None
+        self,
+        claim: Statement,
+        id_: str,
+        hypotheses: Sequence[Statement] = (),
+        small: str | None = None,
+        using: Sequence[Statement] = (),
     ) -> Problem:
         """The problem of an equation, a bound, definiteness or conformity, under hypotheses.
 
-        small: the gain for all of whose small positive values the claim is made.
+        small: the gain for all of whose small positive values the claim is made. using: proved statements: a bound is
+        assumed, the right side of an equation takes the place of the name or rate on its left.
         """
         exprs, kind, shape = _sides(claim)
         matrix = None
         if isinstance(claim, Definite):
             matrix, exprs = lowered(claim.matrix)
         self.add("claim", exprs)
+        self._reach("claim")
         for hypothesis in hypotheses:
             self.assume(hypothesis, "parameter")
+        for used in using:
+            if not isinstance(used, Equal):
+                self.assume(used, PROVED)
         self._assume_what_occurs()
         advice = self._advice(claim.hint) if isinstance(claim, Bound) and claim.hint else None
-        return Problem(
+        made = Problem(
             self.study.name,
             id_,
             claim.text(),
@@ -73,6 +85,41 @@ class Collector:
             tuple(self.given),
             advice,
         )
+        for used in using:
+            if isinstance(used, Equal):
+                made = self._replaced(made, used)
+        return pruned(made)
+
+    def _replaced(self, made: Problem, used: Equal) -> Problem:
+        """The problem with the right side of a proved equation in the place of the name, or of the rate, on its left."""
+        record = used.left.args[0] if used.left.op == "deferred" else None
+        if not isinstance(record, Named | Rate):
+            raise TypeError(f"using: {used.text()} has no definition and no rate of one on its left")
+        listing = f"using {used.left.args[0].label}"
+        self.add(listing, [used.right])
+        self._reach(listing)
+        made = replace(
+            made, listings=self.listings, scalars=self.scalars, names=self.names, motion=self.motion, laws=self.laws
+        )
+        if isinstance(record, Named):
+            shown = self._scalars_of(record, used.left)
+            names = made.names | {n: replace(made.names[n], of=(listing, k)) for k, n in enumerate(shown) if n in made.names}
+            return replace(made, names=names)
+        inner = record.body.args[0] if record.body.op == "deferred" else None
+        if not isinstance(inner, Named | Rate):
+            raise TypeError(f"using: {used.text()} is the rate of an expression without a name")
+        shown = self._scalars_of(inner, record.body)
+        return with_motion(made, inner.label, shown, listing) if shown[0] in made.names else made
+
+    def _scalars_of(self, record: Named | Rate, expr: Expr) -> list[str]:
+        """The starred scalars of a definition or rate."""
+        base, _, node = record.label.partition(".")
+        shown = base if isinstance(record, Named) else self._label(base)
+        return list(component_names(f"{shown}.*" if node else shown, expr.shape))
+
+    def _reach(self, listing: str) -> None:
+        """Add every motion that the evaluation of the listing needs."""
+        Reach(self, wanted=self._add_motion).listing(listing)
 
     def _advice(self, hint: Hint) -> Advice:
         """The hint as a listing beside the statement. Raises TypeError where it speaks of what the claim does not."""
@@ -156,8 +203,6 @@ class Collector:
         if before is not None:
             self._law(before)
         self.add(shown, [record.body], at_neighbour=isinstance(record, Rate) and node == "j")
-        if isinstance(record, Rate):
-            self._reach_motion(shown, set())
 
     def _meaning(self, record: Record, listing: str, k: int) -> Meaning:
         if isinstance(record, Rate):
@@ -186,23 +231,8 @@ class Collector:
         for scalar in self.laws[name]:
             self.scalars.setdefault(scalar, "input")
 
-    def _reach_motion(self, listing: str, seen: set[str]) -> None:
-        """The motions of all states that a listing reaches, with what they reach."""
-        if listing in seen:
-            return
-        seen.add(listing)
-        for name in map(star, self.listings[listing].inputs):
-            meaning = self.names.get(name)
-            if meaning is not None and meaning.of is not None:
-                self._reach_motion(meaning.of[0], seen)
-            elif self.scalars.get(name) == "state" and name not in self.motion:
-                self._add_motion(name, seen)
-            elif self.scalars.get(name) == "input":
-                for law in self.laws.values():
-                    if name in law:
-                        self._reach_motion(law[name][0], seen)
-
-    def _add_motion(self, name: str, seen: set[str]) -> None:
+    def _add_motion(self, name: str) -> None:
+        """The motion of a state or signal, if the study gives one."""
         base, node, _ = split(name)
         symbol = base if node is None else f"{base}.i"
         for x, xdot in self.study.motions:
@@ -213,7 +243,6 @@ class Collector:
                 for k, scalar in enumerate(component_names(key, x.shape)):
                     self.motion[scalar] = (listing, k)
                     self.scalars.setdefault(scalar, "state")
-                self._reach_motion(listing, seen)
                 return
 
     # Assumptions

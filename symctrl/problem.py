@@ -15,6 +15,7 @@ from symctrl.graph import Tape
 
 Output = tuple[str, int]  # output k of a listing
 ADVICE = "advice"
+PROVED = "statement"  # what an assumption is about that is a proved statement
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from symctrl.study import Study
 
 
-def with_conditions(study: Study, claim: Any, verdict: Verdict, row: Row) -> Row:
+def with_conditions(study: Study, claim: Any, using: Sequence[Any], verdict: Verdict, row: Row) -> Row:
     """The row with each condition of its proof and who vouches for it.
 
     An assumption about the trajectory that the study makes, or the exact values of the parameters: found by deciding the
@@ -26,8 +26,8 @@ def with_conditions(study: Study, claim: Any, verdict: Verdict, row: Row) -> Row
     if not verdict.conditions:
         return row
     assumed = study.trajectory_assumptions()
-    under = _conditions(study, claim, row.id, None, along=True) if assumed else None
-    at_values = _conditions(study, claim, row.id, study.all_values(), along=bool(assumed))
+    under = _conditions(study, claim, using, row.id, None, along=True) if assumed else None
+    at_values = _conditions(study, claim, using, row.id, study.all_values(), along=bool(assumed))
     discharged = []
     used = False
     for condition in verdict.conditions:
@@ -102,12 +102,12 @@ def refuse_needless(study: Study, rows: Sequence[Row]) -> None:
 
 
 def _conditions(
-    study: Study, claim: Any, id_: str, values: dict[str, Fraction] | None, along: bool
+    study: Study, claim: Any, using: Sequence[Any], id_: str, values: dict[str, Fraction] | None, along: bool
 ) -> list[str] | None:
     """The conditions of the claim decided under the trajectory assumptions, or at exact values; None if not proved so."""
     try:
         with study.along_trajectory(along):
-            verdict = verdict_of(parts(study, claim, id_, values), None)
+            verdict = verdict_of(parts(study, claim, id_, values, using), None)
     except Nonconforming:
         return None
     return [str(c) for c in verdict.conditions] if verdict.outcome is Outcome.PROVED else None

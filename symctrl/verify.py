@@ -15,6 +15,7 @@ from symctrl.context import Instance, within
 from symctrl.decide.claims import Part, parts, verdict_of
 from symctrl.expr import Nonconforming
 from symctrl.latex import latex
+from symctrl.problem import PROVED
 from symctrl.rows import Given, Report, Row
 from symctrl.statements import Conforms, Equal, Statement
 from symctrl.verdict import Outcome, Verdict
@@ -38,6 +39,7 @@ class Decided:
     claim: Any
     parts: tuple[Part, ...]
     verdict: Verdict
+    using: tuple[Any, ...] = ()
 
 
 def verify(
@@ -87,7 +89,7 @@ def _row(study: Study, entry: Entry, id_: str, store: Store | None) -> Row:
         row = _made(study, entry, id_, reading, decided)
         if decided.verdict.outcome is Outcome.PROVED:
             row = _with_evidence(study, decided, row)
-        row = standing.with_conditions(study, decided.claim, decided.verdict, row)
+        row = standing.with_conditions(study, decided.claim, decided.using, decided.verdict, row)
     return replace(row, seconds=round(time.perf_counter() - began, 3))
 
 
@@ -96,10 +98,11 @@ def _decide(study: Study, entry: Entry, reading: str | None, store: Store | None
         claim = entry.call(study, reading)
         if entry.form in ("definition", "law") or (entry.corrects and _is_named(study, entry.corrects)):
             claim = Conforms(_body(study, entry, claim))
-        found = tuple(parts(study, claim, entry.id))
+        using = [used.call(study) for used in entry.using]
+        found = tuple(parts(study, claim, entry.id, using=using))
     except (Nonconforming, UndefinedLetter) as error:
         return Decided(None, (), Verdict(Outcome.ILL_FORMED, str(error)))
-    return Decided(claim, found, verdict_of(found, store))
+    return Decided(claim, found, verdict_of(found, store), tuple(using))
 
 
 def _body(study: Study, entry: Entry, made: Any) -> Any:
@@ -183,7 +186,7 @@ def _kind(claim: Any) -> str:
 
 
 def _given(found: tuple[Part, ...]) -> tuple[Given, ...]:
-    return tuple(dict.fromkeys(Given(a.text, a.about) for part in found for a in part.problem.given))
+    return tuple(dict.fromkeys(Given(a.text, a.about) for part in found for a in part.problem.given if a.about != PROVED))
 
 
 def _holds_for(study: Study, decided: Decided) -> str:

@@ -4,7 +4,8 @@ from derivations.liang2016_formation.control import V, V_i, control, e, s, stiff
 from derivations.liang2016_formation.model import A, Q, dq
 from derivations.liang2016_formation.symbols import K_o, K_q, K_v, beta, fleet, q, study, u_d
 from symctrl import equal
-from symctrl.vectors import absolute, diagonal, eye, inverse, sgn, stack
+from symctrl.statements import positive
+from symctrl.vectors import absolute, det, diagonal, eye, inverse, sgn, stack
 
 i, j = fleet.node, fleet.neighbour
 K_p = study.undefined("K_p")
@@ -14,12 +15,25 @@ def de(i, j):
     return dq(i) - dq(j)
 
 
+@study.definition("in (7)")
 def d(i):
     """The disturbance as it enters the acceleration of q."""
     return inverse(A(i)) @ Q(i).T @ u_d[i]
 
 
-@study.printed("(5)")
+@study.claimed("before (5)")
+def A_is_invertible(i):
+    """The determinant of A is positive."""
+    return positive(det(A(i)))
+
+
+@study.claimed("before (4)")
+def Q_is_invertible(i):
+    """The determinant of Q is not zero."""
+    return positive(det(Q(i)) ** 2)
+
+
+@study.printed("(5)", using=[A_is_invertible])
 def rate_of_V_i(i):
     """The rate of V_i before the dynamics are put in."""
     first = stiffness() / 2 * fleet.sum(j, e(i, j).T @ de(i, j))
@@ -78,6 +92,7 @@ def rate_of_V_i_closed(i, parts):
 
 @study.corrected(
     rate_of_V_i_closed,
+    using=[closed_loop_corrected],
     why="K_p is K_q, and the disturbance enters with tau, not with |tau|: its sign is not the one that helps.",
 )
 def rate_of_V_i_corrected(i):
@@ -149,7 +164,7 @@ def rate_of_V():
     return equal(study.rate(V, control), -fleet.sum(i, form) - fleet.sum(i, epsilon(i).T @ absolute(tau(i))))
 
 
-@study.corrected(rate_of_V, why="With M = K_o I - beta L and the disturbance beside tau the rate is as printed.")
+@study.corrected(rate_of_V, using=[closed_loop_corrected], why="With M = K_o I - beta L and the disturbance beside tau the rate is as printed.")
 def rate_of_V_corrected():
     """The rate of V is -zeta'Pi zeta less the sum of eps_i |tau_i|."""
     form = quadratic_form(i, K_o - fleet.degree(i) * beta, beta)

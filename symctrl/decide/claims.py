@@ -29,28 +29,36 @@ class Part:
     role: str = ""
 
 
-def parts(study: Study, claim: Any, id_: str, values: Mapping[str, Fraction] | None = None) -> list[Part]:
+def parts(
+    study: Study,
+    claim: Any,
+    id_: str,
+    values: Mapping[str, Fraction] | None = None,
+    using: Sequence[Statement] = (),
+) -> list[Part]:
     """The problems that a claim consists of. Raises UndefinedLetter, Nonconforming, TypeError."""
     if isinstance(claim, list | tuple):
         if not claim:
             raise TypeError(f"{id_}: an empty list claims nothing")
-        return [part for one in claim for part in parts(study, one, id_, values)]
+        return [part for one in claim for part in parts(study, one, id_, values, using)]
     if isinstance(claim, AtValues):
-        return parts(study, claim.claim, id_, study.all_values())
+        return parts(study, claim.claim, id_, study.all_values(), using)
     if isinstance(claim, Equivalent):
         whole = [
-            Part(_problem(study, claim.claim, id_, claim.conditions, values), "the condition is sufficient")
+            Part(_problem(study, claim.claim, id_, claim.conditions, values, using), "the condition is sufficient")
         ]
         for condition in claim.conditions:
-            whole.append(Part(_problem(study, condition, id_, [claim.claim], values), "the condition is necessary"))
+            whole.append(
+                Part(_problem(study, condition, id_, [claim.claim], values, using), "the condition is necessary")
+            )
         return whole
     if isinstance(claim, Implies):
-        return [Part(_problem(study, claim.claim, id_, claim.hypotheses, values))]
+        return [Part(_problem(study, claim.claim, id_, claim.hypotheses, values, using))]
     if isinstance(claim, SufficientlySmall):
-        return [Part(_problem(study, claim.claim, id_, (), values, small=claim.gain.args[0]))]
+        return [Part(_problem(study, claim.claim, id_, (), values, using, small=claim.gain.args[0]))]
     if not isinstance(claim, Statement):
         raise TypeError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
-    return [Part(_problem(study, claim, id_, (), values))]
+    return [Part(_problem(study, claim, id_, (), values, using))]
 
 
 def verdict_of(found: Sequence[Part], store: Store | None) -> Verdict:
@@ -88,9 +96,10 @@ def _problem(
     id_: str,
     hypotheses: Sequence[Statement],
     values: Mapping[str, Fraction] | None,
+    using: Sequence[Statement],
     small: str | None = None,
 ) -> Problem:
-    return Collector(study, values).problem(claim, id_, hypotheses, small)
+    return Collector(study, values).problem(claim, id_, hypotheses, small, using)
 
 
 def _same_statement(problem: Problem, known: Verdict) -> bool:

@@ -14,8 +14,10 @@ from symctrl.domains.domain import Unsupported
 from symctrl.domains.opaque import NowhereDefined
 from symctrl.domains.tangent import NotDifferentiable
 from symctrl.evaluate import NoRate
+from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.check import check_text, needed_conditions
 from symctrl.problem import Problem
+from symctrl.reach import closings
 from symctrl.verdict import Condition, Outcome, Verdict
 
 Decider = Callable[[Problem], Attempt]
@@ -35,7 +37,18 @@ class KernelDisagrees(RuntimeError):  # noqa: N818
 
 
 def decide(problem: Problem) -> Verdict:
-    """The verdict of one problem. Raises KernelDisagrees, an error of the tool."""
+    """The verdict of one problem: first with its definitions closed, then, if that proves nothing, with all opened.
+
+    Raises KernelDisagrees, an error of the tool.
+    """
+    for simpler in closings(problem):
+        found = _decide(simpler)
+        if found.outcome is Outcome.PROVED and not found.conditions:
+            return found
+    return _decide(problem)
+
+
+def _decide(problem: Problem) -> Verdict:
     try:
         found = DECIDERS[problem.claim.kind](problem)
     except NowhereDefined as error:
@@ -54,11 +67,16 @@ def decide(problem: Problem) -> Verdict:
 
 
 def _proved(problem: Problem, found: Attempt) -> Verdict:
+    """The certificate, with the conditions that the kernel finds that its proof needs."""
     assert found.proof is not None
     draft = certificate(problem.statement(), found.proof)
-    conditions = needed_conditions(json.dumps(draft))
+    try:
+        conditions = needed_conditions(json.dumps(draft))
+    except Invalid as error:
+        raise KernelDisagrees(f"{problem.study}/{problem.id}: the kernel does not accept the proof: {error}") from error
+    except Declined as error:
+        return Verdict(Outcome.UNDECIDED, f"a proof was found that the kernel declines: {error}", found.method)
     made = certificate(problem.statement([{"kind": c.kind, "of": c.of} for c in conditions]), found.proof)
-    _accepted(problem, made)
     kept = tuple(Condition(c.kind, c.of) for c in conditions)
     return Verdict(Outcome.PROVED, found.reason, found.method, kept, made)
 

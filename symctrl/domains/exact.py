@@ -187,8 +187,27 @@ class ExactDomain(Domain[Exact]):
         """c and {factor: exponent} with p = c ∏ factor^exponent; the factors enter the table."""
         if p.is_zero():
             return Fraction(0), {}
-        c, pairs = p.factor()
-        return Fraction(int(c.p), int(c.q)), {self.field.factor_index(f): int(e) for f, e in pairs}
+        number, pairs = p.factor()
+        c = Fraction(int(number.p), int(number.q))
+        exponents: dict[int, int] = {}
+        for f, e in pairs:
+            root, ratio = self._square_root(f)
+            k = self.field.factor_index(f if root is None else root)
+            exponents[k] = exponents.get(k, 0) + int(e) * (1 if root is None else 2)
+            c *= ratio ** int(e)
+        return c, exponents
+
+    def _square_root(self, f: Poly) -> tuple[Poly | None, Fraction]:
+        """A generator g and a number r with f = r g² by a relation, as 1 - qᵀq is q0² for a unit quaternion."""
+        for relation in self.field.relations:
+            lead = next(iter(relation.monoms()))
+            if sorted(lead)[-2:] == [0, 2] or list(lead) == [2]:
+                g = self.field.context.gen(list(lead).index(2))
+                tail = g * g - relation / relation.leading_coefficient()
+                ratio = f.leading_coefficient() / tail.leading_coefficient() if not tail.is_zero() else 0
+                if not tail.is_zero() and not tail.is_constant() and f == tail * ratio:
+                    return g, Fraction(int(ratio.p), int(ratio.q))
+        return None, Fraction(1)
 
     def _components(self, a: Exact) -> list[Exact]:
         """Groups whose denominators share factors, apart from the others."""
