@@ -114,15 +114,19 @@ def pruned(problem: Problem, closed: Collection[str] = ()) -> Problem:
 
 
 def closings(problem: Problem) -> Iterator[Problem]:
-    """The problem with definitions taken as free symbols: all that can be, then those that divide themselves.
+    """The problem with definitions taken as free symbols: all that can be, those that reach a division, those that divide.
 
     What holds for all values of these symbols holds for those of the definitions. A definition can be closed where it is
     read only at level 0.
     """
-    every = _closable(problem, {m.of[0] for m in problem.names.values() if m.is_ == "value" and m.of is not None})
-    dividing = _closable(problem, {name for name in every if _divides(problem, name)})
-    for candidates in (every, dividing) if dividing != every else (every,):
-        if candidates:
+    every = {m.of[0] for m in problem.names.values() if m.is_ == "value" and m.of is not None}
+    dividing = {name for name in every if _divides(problem, name)}
+    reaching = {name for name in every if _reaches(problem, name, dividing)}
+    tried: list[set[str]] = [set()]
+    for wanted in (every, reaching, dividing):
+        candidates = _closable(problem, wanted)
+        if candidates not in tried:
+            tried.append(candidates)
             yield pruned(problem, candidates)
 
 
@@ -140,6 +144,12 @@ def _closable(problem: Problem, candidates: set[str]) -> set[str]:
             return candidates & {name for name, _, _ in reach.visits}
         candidates = candidates - moving
     return candidates
+
+
+def _reaches(problem: Problem, name: str, wanted: Collection[str]) -> bool:
+    reach = Reach(problem)
+    reach.listing(name)
+    return any(listing in wanted for listing, _, _ in reach.visits)
 
 
 def _divides(problem: Problem, name: str) -> bool:

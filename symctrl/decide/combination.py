@@ -64,7 +64,7 @@ def terms_of(session: Session, value: Exact, strict: bool, known: Known | None =
     p = session.domain.field.normal(p)
     if p.is_zero():
         return None if strict else []
-    found = _by_squares(session, p) if not strict else None
+    found = _by_factors(session, p, strict) or (_by_squares(session, p) if not strict else None)
     return found or _by_programme(session, p, strict, known)
 
 
@@ -76,6 +76,25 @@ def carrier(session: Session, value: Exact) -> Poly:
         if e % 2:
             numerator = numerator * domain.field.factors[k]
     return numerator
+
+
+def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | None:
+    """p as one product of factors of known sign and squares."""
+    field, signs = session.domain.field, session.domain.signs
+    c, exponents = session.domain.factor_polynomial(p)
+    if c <= 0:
+        return None
+    known, squares = [], []
+    for k, e in sorted(exponents.items()):
+        f = field.factors[k]
+        sign = signs.of(f)
+        if e % 2 and not (sign == "positive" or (sign == "nonnegative" and not strict)):
+            return None
+        if e % 2:
+            known.append(field.json(f))
+        if e > 1:
+            squares.append(field.json(f ** (e // 2)))
+    return [[str(c), known, squares]]
 
 
 def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
