@@ -42,14 +42,19 @@ def zero_square_gives_equal_vectors():
 
 @study.printed(
     "after (10)",
-    finding={"refuted": "Equal vector parts leave the sign of the scalar part open: the attitudes may differ by a turn."},
+    finding={
+        "refuted": "Equal vector parts leave the sign of the scalar part open: the attitudes may differ by a turn."
+    },
 )
 def equal_vectors_give_equal_attitude():
     """If the vector parts are equal, the quaternions are equal."""
     return implies(equal(q_a.vector, q_b.vector), equal(q_a.scalar, q_b.scalar))
 
 
-@study.corrected(equal_vectors_give_equal_attitude, why="It takes that both scalar parts have the same sign, as in q0 in [0, 1].")
+@study.corrected(
+    equal_vectors_give_equal_attitude,
+    why="It takes that both scalar parts have the same sign, as in q0 in [0, 1].",
+)
 def equal_vectors_and_signs_give_equal_attitude():
     """If the vector parts are equal and no scalar part is negative, the quaternions are equal."""
     given = [equal(q_a.vector, q_b.vector), q_a.scalar >= 0, q_b.scalar >= 0]
@@ -89,5 +94,3 @@ def rate_of_V_2_on_the_surface():
 def rate_of_V_2_on_the_surface_doubled():
     """Where tau_i = 0 the rate of the second function is -2 beta times the sum of |sum of (q_i - q_j)|^2."""
     return equal(study.rate(V_2), -2 * beta * fleet.sum(i, s(i).T @ s(i)) + 2 * fleet.sum(i, tau(i).T @ s(i)))
-
-

@@ -56,7 +56,8 @@ def diagonal_blocks():
 
 
 @study.printed(
-    "before (5)", readings={"every entry of Omega is beta": all_entries, "Omega has the blocks beta I": diagonal_blocks}
+    "before (5)",
+    readings={"every entry of Omega is beta": all_entries, "Omega has the blocks beta I": diagonal_blocks},
 )
 def V_is_the_quadratic_form(i, omega_block):
     """V_i is the quadratic form of Theta_i in the rate of q_i and the differences to its neighbours."""
@@ -67,10 +68,11 @@ def V_is_the_quadratic_form(i, omega_block):
 
 
 def theta():
-    """Theta_i = theta (x) I_3, reduced: with m equal spokes it is definite exactly where this 2 x 2 matrix is.
+    """Theta_i = theta (x) I_3, reduced: with m equal spokes it is definite exactly where this 2 x 2 matrix
+    is.
 
-    The Schur complement of the spokes, 1/2 - m (beta/2) (4/(K_q + beta K_o)) (beta/2), is that of the lower entry.
-    """
+    The Schur complement of the spokes, 1/2 - m (beta/2) (4/(K_q + beta K_o)) (beta/2), is that of the lower
+    entry. """
     return block([["1/2", beta / 2], [beta / 2, stiffness() / (4 * m)]])
 
 
@@ -82,7 +84,9 @@ def theta_definite_for_small_beta():
 
 @study.claimed("before (5)")
 def theta_definite_exactly():
-    """Theta_i is positive definite exactly where K_q + beta K_o > 2 m_i beta^2, for a craft with m_i neighbours."""
+    """Theta_i is positive definite exactly where K_q + beta K_o > 2 m_i beta^2, for a craft with m_i
+    neighbours.
+    """
     return equivalent(stiffness() - 2 * m * beta**2 > 0, positive_definite(kron(theta(), eye(3))))
 
 

@@ -45,7 +45,9 @@ def unit_norm():
     return implies(equal(n.T @ n, 1), equal(v.T @ v + s**2, 1))
 
 
-@study.printed("before (1)", finding={"refuted": "An Euler angle beyond half a turn has a negative scalar part."})
+@study.printed(
+    "before (1)", finding={"refuted": "An Euler angle beyond half a turn has a negative scalar part."}
+)
 def scalar_part_range():
     """The scalar part cos(theta/2) lies in [0, 1]."""
     return [nonnegative(cos(theta / 2)), nonnegative(1 - cos(theta / 2))]
@@ -63,7 +65,10 @@ def q_cross(i):
     return block([[0, -v[2], v[1]], [v[2], 0, -v[0]], [-v[1], -v[0], 0]])
 
 
-@study.corrected(q_cross, why="The entry in row 3, column 2 is +(q)_1: only then is the matrix skew and q^x v a cross product.")
+@study.corrected(
+    q_cross,
+    why="The entry in row 3, column 2 is +(q)_1: only then is the matrix skew and q^x v a cross product.",
+)
 def q_cross_skew(i):
     return skew(q[i].vector)
 
@@ -74,7 +79,9 @@ def q_cross_is_skew(i):
     return skew_symmetric(q_cross(i))
 
 
-@study.corrected(q_cross_is_skew, why="With the sign of the entry in row 3, column 2 put right, the matrix is skew.")
+@study.corrected(
+    q_cross_is_skew, why="With the sign of the entry in row 3, column 2 put right, the matrix is skew."
+)
 def q_cross_corrected_is_skew(i):
     """The matrix q^x is skew-symmetric."""
     return skew_symmetric(q_cross(i))
@@ -107,12 +114,14 @@ def kinematics_scalar(i):
 @study.claimed("convention of (1)")
 def norm_is_kept(i):
     """The motion keeps the norm of the quaternion."""
-    return equal(study.rate(q[i].vector.T @ q[i].vector + q[i].scalar**2), 0)
+    return equal(study.rate(q[i].vector.T @ q[i].vector + q[i].scalar ** 2), 0)
 
 
 @study.claimed("convention of (1)")
 def poisson(i):
-    """With the direction cosine matrix R from the inertial to the body frame, R' = -omega^x R: omega is in body axes."""
+    """With the direction cosine matrix R from the inertial to the body frame, R' = -omega^x R: omega is in
+    body axes.
+    """
     return equal(study.rate(direction_cosine(q[i])), -skew(omega[i]) @ direction_cosine(q[i]))
 
 
@@ -158,7 +167,9 @@ def B_with_rate_of_Q(i):
     return coriolis(i, Q(i).T @ J[i] @ study.rate(Q(i)))
 
 
-@study.corrected(B, why="The second term is the rate of Q, not of J, and its sign is plus: B = Q'J dQ/dt - Q'(J Q dq)^x Q.")
+@study.corrected(
+    B, why="The second term is the rate of Q, not of J, and its sign is plus: B = Q'J dQ/dt - Q'(J Q dq)^x Q."
+)
 def B_corrected(i):
     return Q(i).T @ J[i] @ study.rate(Q(i)) - Q(i).T @ skew(J[i] @ Q(i) @ dq(i)) @ Q(i)
 
@@ -199,5 +210,3 @@ def rate_of_A_minus_2B_is_skew(i):
 def disturbance_bound(i):
     """Each component of the disturbance torque is at most u_bar in absolute value."""
     return u_d[i] <= u_bar * stack(1, 1, 1)
-
-

@@ -102,7 +102,9 @@ def rate_of_V_i_corrected(i):
 
 @study.printed("before (6)")
 def both_directions():
-    """Over both directions of every edge, the sum of (q_i - q_j)'(dq_i - dq_j) is that of 2 q_i'(dq_i - dq_j)."""
+    """Over both directions of every edge, the sum of (q_i - q_j)'(dq_i - dq_j) is that of 2 q_i'(dq_i -
+    dq_j).
+    """
     left = fleet.sum(i, fleet.sum(j, e(i, j).T @ de(i, j)))
     return equal(left, fleet.sum(i, 2 * q[i].vector.T @ fleet.sum(j, de(i, j))))
 
@@ -119,7 +121,9 @@ def epsilon(i):
     return K_v - d(i)
 
 
-@study.corrected(epsilon, why="K_v is a scalar and d a vector; component by component it is K_v - sgn(tau) d.")
+@study.corrected(
+    epsilon, why="K_v is a scalar and d a vector; component by component it is K_v - sgn(tau) d."
+)
 def epsilon_by_component(i):
     return K_v * stack(1, 1, 1) - diagonal(*sgn(tau(i))) @ d(i)
 
@@ -141,7 +145,10 @@ def M():
     return (K_o - beta) * eye(fleet.size) + "0.5" * beta * fleet.adjacency()
 
 
-@study.corrected(M, why="The rate of V has K_o - m_i beta on the diagonal and beta, not beta/2, beside it: M = K_o I - beta L.")
+@study.corrected(
+    M,
+    why="The rate of V has K_o - m_i beta on the diagonal and beta, not beta/2, beside it: M = K_o I - beta L.",
+)
 def M_corrected():
     return K_o * eye(fleet.size) - beta * fleet.laplacian()
 
@@ -164,7 +171,11 @@ def rate_of_V():
     return equal(study.rate(V, control), -fleet.sum(i, form) - fleet.sum(i, epsilon(i).T @ absolute(tau(i))))
 
 
-@study.corrected(rate_of_V, using=[closed_loop_corrected], why="With M = K_o I - beta L and the disturbance beside tau the rate is as printed.")
+@study.corrected(
+    rate_of_V,
+    using=[closed_loop_corrected],
+    why="With M = K_o I - beta L and the disturbance beside tau the rate is as printed.",
+)
 def rate_of_V_corrected():
     """The rate of V is -zeta'Pi zeta less the sum of eps_i |tau_i|."""
     form = quadratic_form(i, K_o - fleet.degree(i) * beta, beta)

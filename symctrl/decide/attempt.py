@@ -11,7 +11,9 @@ from symctrl.decide.witness import Witness
 
 @dataclass(frozen=True)
 class Attempt:
-    """proof: of the claim. witness: against it. reason: in words. residual: LaTeX of left minus right of an identity."""
+    """proof: of the claim. witness: against it. reason: in words. residual: LaTeX of left minus right of an
+    identity.
+    """
 
     proof: Mapping[str, Any] | None = None
     witness: Witness | None = None

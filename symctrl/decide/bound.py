@@ -1,11 +1,13 @@
-"""Bounds: each entry is nonnegative, or positive, by a combination of assumptions and squares; refuted by a point."""
+"""Bounds: each entry is nonnegative, or positive, by a combination of assumptions and squares; refuted by a
+point.
+"""
 
 from __future__ import annotations
 
 from typing import Any
 
 from symctrl.decide.attempt import Attempt
-from symctrl.decide.combination import Known, carrier, entry_of, form_of
+from symctrl.decide.combination import Known, entry_of, form_of
 from symctrl.decide.session import Session, exactly
 from symctrl.decide.witness import refute
 from symctrl.domains.domain import Unsupported
@@ -15,7 +17,9 @@ TRIES = 400
 
 
 def attempt(problem: Problem) -> Attempt:
-    """A proof or a witness of entries >= 0 (> 0). Raises what the exact domain and the search for points raise."""
+    """A proof or a witness of entries >= 0 (> 0). Raises what the exact domain and the search for points
+    raise.
+    """
     reason = "no combination of the assumptions was found that proves it"
     try:
         proof = exactly(problem, lambda session: _proof(session, problem.claim.kind == "positive"))
@@ -46,8 +50,8 @@ def _known(session: Session) -> Known:
     if advice is None:
         return Known()
     values = list(session.environment.outputs(ADVICE, {"i": "i", "j": "j"}))
-    times = carrier(session, values.pop(0)) if advice.times else None
-    squares = tuple(carrier(session, values.pop(0)) for _ in range(advice.squares))
+    times = session.carrier(values.pop(0)) if advice.times else None
+    squares = tuple(session.carrier(values.pop(0)) for _ in range(advice.squares))
     forms = []
     for n in advice.sizes:
         matrix, x = values[: n * n], values[n * n : n * n + n]

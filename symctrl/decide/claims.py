@@ -45,11 +45,17 @@ def parts(
         return parts(study, claim.claim, id_, study.all_values(), using)
     if isinstance(claim, Equivalent):
         whole = [
-            Part(_problem(study, claim.claim, id_, claim.conditions, values, using), "the condition is sufficient")
+            Part(
+                _problem(study, claim.claim, id_, claim.conditions, values, using),
+                "the condition is sufficient",
+            )
         ]
         for condition in claim.conditions:
             whole.append(
-                Part(_problem(study, condition, id_, [claim.claim], values, using), "the condition is necessary")
+                Part(
+                    _problem(study, condition, id_, [claim.claim], values, using),
+                    "the condition is necessary",
+                )
             )
         return whole
     if isinstance(claim, Implies):
@@ -77,7 +83,9 @@ def verdict_of(found: Sequence[Part], store: Store | None) -> Verdict:
     return Verdict(Outcome.PROVED, f"all {len(verdicts)} parts are proved", methods, conditions, made)
 
 
-def remembered(problem: Problem, store: Store | None, decider: Callable[[Problem], Verdict] = decide) -> Verdict:
+def remembered(
+    problem: Problem, store: Store | None, decider: Callable[[Problem], Verdict] = decide
+) -> Verdict:
     """The verdict, from the store if it is there and the kernel accepts its certificate again."""
     kept = store.get(problem.sha256) if store is not None else None
     if kept is not None and kept["certificate"] is not None:
@@ -138,5 +146,3 @@ def _read(kept: Mapping[str, Any]) -> Verdict:
         kept["witness"],
         kept["residual"],
     )
-
-

@@ -1,9 +1,8 @@
 """A sign by a combination: a value as a sum of positive multiples of products of assumptions and squares.
 
-The candidates are assumptions, their pairwise products and monomials, each times squares; a linear programme in
-floating point chooses among them, and the multipliers are solved for exactly. A quadratic form in the symbols of
-unknown sign is completed to squares by its exact LDLᵀ.
-"""
+The candidates are assumptions, their pairwise products and monomials, each times squares; a linear programme
+in floating point chooses among them, and the multipliers are solved for exactly. A quadratic form in the
+symbols of unknown sign is completed to squares by its exact LDLᵀ. """
 
 from __future__ import annotations
 
@@ -36,7 +35,9 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Known:
-    """The author's advice as exact polynomials: a positive multiplier, squares, and forms that are not negative."""
+    """The author's advice as exact polynomials: a positive multiplier, squares, and forms that are not
+    negative.
+    """
 
     times: Poly | None = None
     squares: tuple[Poly, ...] = ()
@@ -44,19 +45,35 @@ class Known:
 
 
 def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict[str, Any] | None:
-    """The entry of a combination for one value, with the author's multiplier where there is one; None if none is found."""
+    """The entry of a combination for one value, with the author's multiplier where there is one; None if none
+    is found.
+    """
     if known.times is None:
         terms = terms_of(session, value, strict, known)
-        return None if terms is None else {"terms": terms}
-    scaled = session.domain.polynomial(session.domain.field.normal(carrier(session, value) * known.times))
+        return _by_fact(session, value, strict) if terms is None else {"terms": terms}
+    scaled = session.domain.polynomial(session.domain.field.normal(session.carrier(value) * known.times))
     terms = terms_of(session, scaled, strict, known)
     return None if terms is None else {"terms": terms, "times": session.domain.field.json(known.times)}
+
+
+def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | None:
+    """The value times something positive is itself known, as the minor of a matrix that is assumed to be
+    definite.
+    """
+    field, signs = session.domain.field, session.domain.signs
+    p = field.normal(session.carrier(value))
+    for fact, kind in signs.facts:
+        if kind == "positive" or (kind == "nonnegative" and not strict):
+            quotient, rest = divmod(fact, p)
+            if rest.is_zero() and signs.of(quotient) == "positive":
+                return {"times": field.json(quotient), "terms": [["1", [field.json(fact)], []]]}
+    return None
 
 
 def terms_of(session: Session, value: Exact, strict: bool, known: Known | None = None) -> list[list[Any]] | None:
     """The terms of a combination that proves the value nonnegative (positive if strict), or None."""
     known = known or Known()
-    p = carrier(session, value)
+    p = session.carrier(value)
     for form in (p, session.domain.field.normal(p)):
         sign = session.domain.signs.of(form)
         if sign == "positive" or (sign == "nonnegative" and not strict):
@@ -66,16 +83,6 @@ def terms_of(session: Session, value: Exact, strict: bool, known: Known | None =
         return None if strict else []
     found = _by_factors(session, p, strict) or (_by_squares(session, p) if not strict else None)
     return found or _by_programme(session, p, strict, known)
-
-
-def carrier(session: Session, value: Exact) -> Poly:
-    """A polynomial with the sign of the value: the numerator times the factors of odd exponent below it."""
-    domain = session.domain
-    numerator, key = domain.together(value)
-    for k, e in key:
-        if e % 2:
-            numerator = numerator * domain.field.factors[k]
-    return numerator
 
 
 def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | None:
@@ -89,6 +96,8 @@ def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | No
         f = field.factors[k]
         sign = signs.of(f)
         if e % 2 and not (sign == "positive" or (sign == "nonnegative" and not strict)):
+            return None
+        if strict and e % 2 == 0 and sign not in ("positive", "nonzero") and k not in session.domain.divided():
             return None
         if e % 2:
             known.append(field.json(f))
@@ -186,7 +195,9 @@ def _exact_weights(columns: Sequence[dict[int, Any]], target: dict[int, Any]) ->
 
 
 def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
-    """The author's forms and squares with every product of assumptions first, then monomials and their pairs."""
+    """The author's forms and squares with every product of assumptions first, then monomials and their
+    pairs.
+    """
     field = session.domain.field
     one = field.polynomial(1)
     facts = [(one, ())] + [(q, (k,)) for k, q in _facts(session)]
@@ -211,11 +222,13 @@ def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
 
 
 def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
-    """The nonnegative assumptions at node i, by index; then opaque generators that are not negative, by POLY."""
+    """The nonnegative assumptions at node i, by index; then opaque generators that are not negative, by
+    POLY.
+    """
     field = session.domain.field
     for k, assumption in enumerate(session.problem.given):
         if assumption.kind in ("positive", "nonnegative"):
-            yield k, carrier(session, session.at(assumption.of[0], {"i": "i"}))
+            yield k, session.carrier(session.at(assumption.of[0], {"i": "i"}))
     for k, g in enumerate(field.generators):
         if g.kind in ("root", "abs", "exp", "power"):
             yield field.json(field.variable(k)), field.variable(k)
@@ -224,7 +237,9 @@ def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
 def _squares(session: Session, p: Poly) -> list[Poly]:
     """Monomials whose squares may occur, their sums and differences in pairs."""
     field = session.domain.field
-    variables = [field.variable(k) for k in sorted(field.occurring(p))]
+    opaque = {k for k, g in enumerate(field.generators) if g.kind not in ("free", "sum")}
+    related = {k for r in field.relations for k in field.occurring(r) if field.occurring(r) & field.occurring(p)}
+    variables = [field.variable(k) for k in sorted(field.occurring(p) | opaque | related)]
     singles = [field.polynomial(1), *variables]
     pairs = [a + s * b for a, b in combinations(variables, 2) for s in (1, -1)] if len(variables) <= 8 else []
     products = [a * b for a, b in combinations_with_replacement(variables, 2)] if p.total_degree() > 3 else []
@@ -241,7 +256,9 @@ def _is_sure(session: Session, candidate: Candidate) -> bool:
 
 
 def form_of(session: Session, matrix: Sequence[Exact], x: Sequence[Exact]) -> tuple[dict[str, Any], Poly] | None:
-    """xᵀPx for a P (column by column) that is assumed to be definite, as a term's factor and as a polynomial."""
+    """xᵀPx for a P (column by column) that is assumed to be definite, as a term's factor and as a
+    polynomial.
+    """
     domain, n = session.domain, len(x)
     for k, assumption in enumerate(session.problem.given):
         if assumption.size != n or not assumption.kind.startswith("positive_"):

@@ -9,7 +9,7 @@ from typing import Any
 from symctrl.certify import certificate
 from symctrl.decide import bound, definite, equation
 from symctrl.decide.attempt import Attempt
-from symctrl.decide.points import NoPoint
+from symctrl.decide.solve import NoPoint
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.opaque import NowhereDefined
 from symctrl.domains.tangent import NotDifferentiable
@@ -37,7 +37,8 @@ class KernelDisagrees(RuntimeError):  # noqa: N818
 
 
 def decide(problem: Problem) -> Verdict:
-    """The verdict of one problem: first with its definitions closed, then, if that proves nothing, with all opened.
+    """The verdict of one problem: first with its definitions closed, then, if that proves nothing, with all
+    opened.
 
     Raises KernelDisagrees, an error of the tool.
     """

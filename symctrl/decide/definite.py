@@ -1,4 +1,6 @@
-"""Definiteness of a claim's matrix, leaf by leaf of its tree: exact numbers, or leading principal minors in symbols."""
+"""Definiteness of a claim's matrix, leaf by leaf of its tree: exact numbers, or leading principal minors in
+symbols.
+"""
 
 from __future__ import annotations
 
@@ -7,14 +9,14 @@ from fractions import Fraction
 from typing import Any
 
 from symctrl.decide.attempt import Attempt
-from symctrl.decide.combination import carrier, terms_of
+from symctrl.decide.combination import terms_of
 from symctrl.decide.definiteness import decide_matrix
 from symctrl.decide.place import evaluation
 from symctrl.decide.points import points
 from symctrl.decide.session import Session, exactly
 from symctrl.decide.witness import Witness
-from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.domains.field import Exact
+from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.domains.signs import determinant_of
 from symctrl.problem import Problem
 
@@ -108,7 +110,7 @@ def _by_minors(session: Session, rows: list[list[Exact]], small: str | None) -> 
 def _lowest(session: Session, value: Exact, small: str) -> Exact:
     """The coefficient of the lowest power of a gain in a polynomial with the sign of the value."""
     field = session.domain.field
-    p = field.normal(carrier(session, value))
+    p = field.normal(session.carrier(value))
     column = field.size - 1 - field.index[small] if small in field.index else None
     if column is None or p.is_zero():
         return session.domain.polynomial(p)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from symctrl.decide import squeeze
 from symctrl.decide.attempt import Attempt
 from symctrl.decide.identity import residuals, vanishes
-from symctrl.decide.points import NoPoint
 from symctrl.decide.session import Session, exactly
+from symctrl.decide.solve import NoPoint
 from symctrl.decide.witness import Witness, refute
 from symctrl.domains.domain import Unsupported
 from symctrl.problem import Problem
@@ -31,6 +32,9 @@ def attempt(problem: Problem) -> Attempt:
         return Attempt(witness=found, residual=None, reason=str(error))
     if proof is not None:
         return Attempt(proof=proof, reason="left and right have the same normal form", method=METHOD)
+    by_signs = exactly(problem, squeeze.proof)
+    if by_signs is not None:
+        return Attempt(proof=by_signs, reason="minus a square of the difference is not negative", method="squeeze")
     found = refute(problem)
     if found is not None:
         return Attempt(witness=found, residual=residual, method=METHOD)

@@ -1,7 +1,8 @@
 """Equations: left minus right is zero on the domain, decided in the exact domain.
 
-Sums over neighbours are polynomials in sums of monomials, so that what belongs to one node is an identity of its own.
-The sum over all nodes of c(i) times a sum over the neighbours j of u(j) is a sum over all edges, each taken in both
+Sums over neighbours are polynomials in sums of monomials, so that what belongs to one node is an identity of
+its own. The sum over all nodes of c(i) times a sum over the neighbours j of u(j) is a sum over all edges,
+each taken in both
 directions: it vanishes for every undirected graph if c(i) u(j) + c(j) u(i) does for a generic edge.
 """
 
@@ -65,7 +66,9 @@ def _at_node(session: Session, coefficients: dict[int, Exact], node: str) -> Exa
 
 
 def _along_edge(session: Session, value: Exact, node: str) -> Exact | None:
-    """A value at a node that is linear in sums over its neighbours, each replaced by its term; None where it is not."""
+    """A value at a node that is linear in sums over its neighbours, each replaced by its term; None where it
+    is not.
+    """
     field, domain = session.domain.field, session.domain
     sums = {k for k, g in enumerate(field.generators) if g.kind == "sum" and g.name == node}
     parts = _linear_parts(session, value, sums)
@@ -78,7 +81,9 @@ def _along_edge(session: Session, value: Exact, node: str) -> Exact | None:
 
 
 def _linear_parts(session: Session, value: Exact, wanted: set[int]) -> tuple[Exact, dict[int, Exact]] | None:
-    """The part free of the wanted generators and the coefficient of each; None where they occur otherwise than linearly."""
+    """The part free of the wanted generators and the coefficient of each; None where they occur otherwise
+    than linearly.
+    """
     field = session.domain.field
     columns = {field.size - 1 - k: k for k in wanted}
     value = session.domain.simplified(value)

@@ -24,7 +24,9 @@ SMALL_GRAPHS: tuple[tuple[tuple[str, str], ...], ...] = (
 
 @dataclass(frozen=True)
 class Place:
-    """Values of all free scalars by resolved name; for fleets the edges and the nodes that i and j stand for."""
+    """Values of all free scalars by resolved name; for fleets the edges and the nodes that i and j stand
+    for.
+    """
 
     values: Mapping[str, Fraction]
     edges: tuple[tuple[str, str], ...] = ()

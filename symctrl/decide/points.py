@@ -1,53 +1,34 @@
 """Admissible rational points of a problem: all assumptions hold there exactly.
 
-Relations are met by construction, through the rational parametrisation of a sphere or circle or by solving for a symbol
-that enters linearly; symmetric definite matrices are L Lᵀ + I; inequalities by trying, with smaller and smaller values.
-"""
+Equations are met by construction (symctrl.decide.solve); symmetric definite matrices are L Lᵀ + I;
+inequalities by trying, with smaller and smaller values. """
 
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
-from typing import Any
 
 from symctrl.decide.place import SMALL_GRAPHS, Place, evaluation, free_names, is_fleet, neighbours
-from symctrl.decide.session import Session, exactly
-from symctrl.domains.fraction import FractionDomain, NoExactValue, rational_root
+from symctrl.decide.session import exactly
+from symctrl.decide.solve import NoPoint, Sphere, Way, evaluated, ways
+from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.problem import Assumption, Problem, split, star
 
 TRIES_PER_POINT = 60
 
 
-class NoPoint(ValueError):  # noqa: N818
-    """No admissible point was found; the message names the assumption that failed last."""
-
-
-@dataclass(frozen=True)
-class Sphere:
-    """x_1² + .. + x_k² = radius², for symbols by their starred names."""
-
-    names: tuple[str, ...]
-    radius: Fraction
-
-
-@dataclass(frozen=True)
-class Linear:
-    """The symbol `name` solves: coefficient * name + rest = 0, both free of it; monomials over starred names."""
-
-    name: str
-    coefficient: tuple[tuple[Fraction, Mapping[str, int]], ...]
-    rest: tuple[tuple[Fraction, Mapping[str, int]], ...]
-
-
 @dataclass(frozen=True)
 class Recipe:
-    """How the symbols of a problem are drawn. root: powers of this degree keep roots rational."""
+    """How the symbols of a problem are drawn.
+
+    ways: to meet the assumed equations. definite: symbols of matrices, with their sizes. root: powers of this
+    degree keep roots rational. """
 
     problem: Problem
-    solved: tuple[Sphere | Linear, ...]
+    ways: tuple[Way, ...]
     definite: tuple[tuple[tuple[str, ...], int], ...]
     positive: frozenset[str]
     root: int
@@ -55,7 +36,7 @@ class Recipe:
 
 def recipe(problem: Problem) -> Recipe:
     """The recipe of a problem. Raises NoPoint for a relation of a form that is not solved here."""
-    solved = exactly(problem, _solutions)
+    found = exactly(problem, ways)
     definite = []
     positive = set()
     for assumption in problem.given:
@@ -64,7 +45,7 @@ def recipe(problem: Problem) -> Recipe:
             definite.append((tuple(n for n in names if n), assumption.size))
         elif assumption.kind in ("positive", "nonnegative") and names[0]:
             positive.add(names[0])
-    return Recipe(problem, tuple(solved), tuple(definite), frozenset(positive), _root_degree(problem))
+    return Recipe(problem, tuple(found), tuple(definite), frozenset(positive), _root_degree(problem))
 
 
 def points(problem: Problem, seed: int = 1) -> Iterator[Place]:
@@ -117,18 +98,20 @@ def _draw(
         for names, size in made.definite:
             for name, entry in zip(names, _definite(size, generator, height), strict=True):
                 values[local(name)] = entry
-        for way in made.solved:
-            if isinstance(way, Sphere):
-                drawn = _on_sphere(len(way.names), generator, height)
-                values.update({local(n): way.radius * x for n, x in zip(way.names, drawn, strict=True)})
+        for step in reversed(generator.choice(made.ways)):
+            if isinstance(step, Sphere):
+                drawn = _on_sphere(len(step.names), generator, height)
+                values.update({local(n): step.radius * x for n, x in zip(step.names, drawn, strict=True)})
             else:
                 known = {star(n) if edges else n: v for n, v in values.items() if not edges or split(n)[1] in (node, None)}
-                values[local(way.name)] = -_evaluated(way.rest, known) / _evaluated(way.coefficient, known)
+                values[local(step.name)] = -evaluated(step.rest, known) / evaluated(step.coefficient, known)
     return values
 
 
 def _number(made: Recipe, name: str, generator: random.Random, height: int, attempt: int) -> Fraction:
-    """A small rational; every other attempt a power that keeps roots rational, and smaller ones as attempts fail."""
+    """A small rational; every other attempt a power that keeps roots rational, and smaller ones as attempts
+    fail.
+    """
     root = made.root if attempt % 2 == 0 else 1
     value = Fraction(generator.randint(name in made.positive, height + 1), generator.randint(1, height)) ** root
     if name not in made.positive and generator.random() < 0.5:
@@ -170,65 +153,6 @@ def _holds(assumption: Assumption, values: list[Fraction]) -> bool:
     n = assumption.size
     answer = decide_matrix([[values[r + n * c] for c in range(n)] for r in range(n)]).definiteness
     return answer == "positive definite" or (answer != "not positive semidefinite" and "semi" in assumption.kind)
-
-
-def _solutions(session: Session) -> list[Sphere | Linear]:
-    found: list[Sphere | Linear] = []
-    taken: set[str] = set()
-    for assumption, numerator in session.zeros:
-        way = _sphere(session, numerator, taken) or _linear(session, numerator, taken)
-        if way is None:
-            raise NoPoint(f"no exact point is known with {assumption.text}")
-        found.append(way)
-        taken |= set(way.names) if isinstance(way, Sphere) else {way.name}
-    return found
-
-
-def _monomials(session: Session, p: Any) -> list[tuple[Fraction, dict[str, int]]] | None:
-    """The terms of a relation over starred names; None where it has opaque generators or speaks of the neighbour."""
-    field = session.domain.field
-    result = []
-    for exponents, c in p.terms():
-        names = {}
-        for v, e in enumerate(exponents):
-            if e:
-                g = field.generators[field.size - 1 - v]
-                if g.kind != "free" or ".j" in g.name:
-                    return None
-                names[star(g.name)] = int(e)
-        result.append((Fraction(int(c.p), int(c.q)), names))
-    return result
-
-
-def _sphere(session: Session, p: Any, taken: set[str]) -> Sphere | None:
-    terms = _monomials(session, p)
-    if terms is None:
-        return None
-    constant = sum((c for c, names in terms if not names), Fraction(0))
-    squares = [(c, names) for c, names in terms if names]
-    if any(list(names.values()) != [2] for _, names in squares) or len({c for c, _ in squares}) != 1:
-        return None
-    names = tuple(next(iter(n)) for _, n in reversed(squares))
-    radius = rational_root(-constant / squares[0][0], 2) if -constant / squares[0][0] > 0 else None
-    return None if radius is None or len(names) < 2 or taken & set(names) else Sphere(names, radius)
-
-
-def _linear(session: Session, p: Any, taken: set[str]) -> Linear | None:
-    terms = _monomials(session, p)
-    for name in sorted({n for _, names in terms or () for n in names} - taken):
-        if all(names.get(name, 0) <= 1 for _, names in terms or ()):
-            lead = tuple((c, {n: e for n, e in names.items() if n != name}) for c, names in terms or () if name in names)
-            return Linear(name, lead, tuple((c, names) for c, names in terms or () if name not in names))
-    return None
-
-
-def _evaluated(terms: tuple[tuple[Fraction, Mapping[str, int]], ...], values: Mapping[str, Fraction]) -> Fraction:
-    total = Fraction(0)
-    for c, names in terms:
-        for name, e in names.items():
-            c = c * values[name] ** e
-        total += c
-    return total
 
 
 def _plain_names(problem: Problem, assumption: Assumption) -> list[str | None]:

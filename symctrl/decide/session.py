@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any, TypeVar
 
 from symctrl.domains.algebra_latex import value_latex
@@ -14,18 +15,21 @@ from symctrl.domains.domain import Unsupported
 from symctrl.domains.exact import ExactDomain
 from symctrl.domains.field import Exact, Field, Generator, OutOfGenerators, Poly
 from symctrl.domains.opaque import Knowledge, Refine
+from symctrl.domains.signs import determinant_of
 from symctrl.domains.tangent import Pair
 from symctrl.evaluate import Environment
 from symctrl.problem import Assumption, Output, Problem, split, star
 
 MAX_RESTARTS = 40
+MAX_MINOR = 3
 OTHER = {"i": "j", "j": "i"}
 Result = TypeVar("Result")
 
 
 @dataclass
 class Session:
-    """The exact domain with the problem's assumptions in it. `totals` are the generators of sums over all nodes: name, derivatives, law.
+    """The exact domain with the problem's assumptions in it. `totals` are the generators of sums over all
+    nodes: name, derivatives, law.
 
     `zeros` are the numerators of the equations assumed at node i.
     """
@@ -43,7 +47,9 @@ class Session:
                 self._learn(assumption, {"i": node, "j": "j"} if node == "i" else {"i": node})
 
     def nodes(self) -> list[str]:
-        """The generic nodes that occur: i, and j where a neighbour does; a problem without a fleet has the one case i."""
+        """The generic nodes that occur: i, and j where a neighbour does; a problem without a fleet has the
+        one case i.
+        """
         letters = {
             split(name)[1] for tape in self.problem.listings.values() for name in tape.inputs
         } - {None}
@@ -54,7 +60,9 @@ class Session:
         return self.domain.polynomial(self.domain.field.variable(self._generator(name)))
 
     def value(self, at: Environment, name: str, level: int, law: str | None) -> Any:
-        """The value of a sum over neighbours as a polynomial in sums of monomials, or of a total as a generator."""
+        """The value of a sum over neighbours as a polynomial in sums of monomials, or of a total as a
+        generator.
+        """
         meaning = self.problem.names[star(name)]
         assert meaning.of is not None
         node = split(name)[1]
@@ -63,6 +71,16 @@ class Session:
         if node not in OTHER:
             raise Unsupported(f"{name} is a sum over the neighbours of no node")
         return _mapped(at.output(meaning.of, {"i": node, "j": OTHER[node]}, level, law), lambda v: self._summed(v, node))
+
+    def carrier(self, value: Exact) -> Poly:
+        """A polynomial with the sign of the value: the numerator times the factors of odd exponent below
+        it.
+        """
+        numerator, key = self.domain.together(value)
+        for k, e in key:
+            if e % 2:
+                numerator = numerator * self.domain.field.factors[k]
+        return numerator
 
     def claim(self) -> list[Exact]:
         return list(self.environment.outputs(self.problem.claim.listing, {"i": "i", "j": "j"}))
@@ -127,19 +145,25 @@ class Session:
         domain = self.domain
         if assumption.kind.startswith("positive_"):
             rows = [values[r :: assumption.size] for r in range(assumption.size)]
-            polynomials = [[v.get((), domain.field.polynomial(0)) for v in row] for row in rows]
-            if assumption.kind == "positive_definite" and all(set(v) <= {()} for v in values):
-                domain.signs.learn_definite(polynomials)
+            self._learn_minors(rows, "positive" if assumption.kind == "positive_definite" else "nonnegative")
             return
-        numerator, key = domain.together(values[0])
+        numerator, _ = domain.together(values[0])
         if assumption.kind == "zero":
             domain.field.add_relation(numerator)
             if binding["i"] == "i" and not numerator.is_zero():
                 self.zeros.append((assumption, numerator))
             return
-        for k, e in key:
-            numerator = numerator * domain.field.factors[k] ** e
-        domain.signs.learn(numerator, assumption.kind)
+        domain.signs.learn(self.carrier(values[0]), assumption.kind)
+
+    def _learn_minors(self, rows: list[list[Exact]], kind: str) -> None:
+        """The principal minors of a definite matrix are positive, of a semidefinite one nonnegative.
+
+        Horn and Johnson, Matrix Analysis, 7.1. Minors of more than MAX_MINOR rows are not formed.
+        """
+        for size in range(1, min(len(rows), MAX_MINOR) + 1):
+            for subset in combinations(range(len(rows)), size):
+                minor = determinant_of(self.domain, [[rows[r][c] for c in subset] for r in subset])
+                self.domain.signs.learn(self.carrier(minor), kind)
 
 
 def _mapped(value: Any, change: Callable[[Exact], Exact]) -> Any:

@@ -1,7 +1,7 @@
 """Refutation: an exact point at which a claim fails, found by trying admissible points.
 
-Where a value is rational it is compared exactly; where it is not (a sine, an exponential), by rigorous enclosures.
-"""
+Where a value is rational it is compared exactly; where it is not (a sine, an exponential), by rigorous
+enclosures. """
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from fractions import Fraction
 from typing import Any
 
 from symctrl.decide.place import Place, evaluation, is_fleet
-from symctrl.decide.points import NoPoint, points
+from symctrl.decide.points import points
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.domains.interval import IntervalDomain, bounds
@@ -56,7 +56,9 @@ class Witness:
 
 
 def refute(problem: Problem, tries: int = TRIES) -> Witness | None:
-    """A witness against an equation or a bound, or None. Raises NoPoint where no admissible point is found at all."""
+    """A witness against an equation or a bound, or None. Raises NoPoint where no admissible point is found at
+    all.
+    """
     tried = 0
     for place in points(problem):
         found = _fails(problem, place)
@@ -107,5 +109,3 @@ def _enclosed_failure(problem: Problem, place: Place) -> Witness | None:
             return Witness(place, k, None, f"left is about {float(a[0]):.6g}, right about {float(b[0]):.6g}, and the enclosures do not meet")
     return None
 
-
-__all__ = ["NoPoint", "Witness", "refute"]

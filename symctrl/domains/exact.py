@@ -271,10 +271,14 @@ class ExactDomain(Domain[Exact]):
         e = self.operation("EXP")(a)
         return self.scaled(self.add_(e, self.scaled(self.inv_(e), Fraction(side))), Fraction(1, 2))
 
+    def divided(self) -> set[int]:
+        """The factors that something was divided by, which are not zero on the domain."""
+        found = {k for _, key in self.recording.inverses for k, _ in key}
+        return found | {k for value in self.recording.results for key in value for k, _ in key}
+
     def proof_json(self) -> dict[str, Any]:
         """Generators, the factors that something was divided by, and each distinct inverse and opaque result once."""
-        divided = {k for _, key in self.recording.inverses for k, _ in key}
-        divided |= {k for value in self.recording.results for key in value for k, _ in key}
+        divided = self.divided()
         place = {k: n for n, k in enumerate(sorted(divided))}
         inverses = [
             {"inverse": [str(c), [[place[k], e] for k, e in key]]} for c, key in self.recording.inverses

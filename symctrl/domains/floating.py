@@ -30,13 +30,13 @@ def _recorded(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def _erf(a: Samples) -> Any:
-    from scipy.special import erf  # noqa: PLC0415  slow to import, rarely used
+    from scipy.special import erf
 
     return erf(a)
 
 
 def _erfinv(a: Samples) -> Any:
-    from scipy.special import erfinv  # noqa: PLC0415
+    from scipy.special import erfinv
 
     return erfinv(a)
 

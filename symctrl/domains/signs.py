@@ -1,10 +1,8 @@
-"""What is known of the sign of a polynomial: by its terms, by an assumption, by a minor of a definite matrix."""
+"""What is known of the sign of a polynomial: by its terms, or by an assumption."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field
-from itertools import combinations
 from typing import TYPE_CHECKING
 
 from symctrl.domains.field import Exact, Field, Poly, coefficient
@@ -34,12 +32,6 @@ class Signs:
                 self.generator[k] = kind
                 return
         self.facts.append((p, kind))
-
-    def learn_definite(self, rows: list[list[Poly]]) -> None:
-        """Every principal minor of a positive definite matrix is positive (Horn and Johnson, Matrix Analysis, 7.1)."""
-        for size in range(1, min(len(rows), 3) + 1):
-            for subset in combinations(range(len(rows)), size):
-                self.learn(determinant([[rows[r][c] for c in subset] for r in subset]), "positive")
 
     def of(self, p: Poly) -> str | None:
         """positive, nonnegative or nonzero where that is known of p; None where nothing is."""
@@ -77,18 +69,6 @@ class Signs:
         if exponent % 2 == 0:
             return "positive" if known == "nonzero" else "nonnegative"
         return "nonnegative" if known == "nonnegative" or kind in NONNEGATIVE_KINDS else None
-
-
-def determinant(rows: list[list[Poly]]) -> Poly:
-    """By Laplace expansion: for sizes up to three."""
-    if len(rows) == 1:
-        return rows[0][0]
-    minors: Iterable[Poly] = (
-        (-1) ** c * rows[0][c] * determinant([row[:c] + row[c + 1 :] for row in rows[1:]])
-        for c in range(len(rows))
-    )
-    first, *rest = minors
-    return sum(rest, first)
 
 
 def _ratio(p: Poly, q: Poly) -> int | None:

@@ -46,7 +46,7 @@ class SympyDomain(Domain[Expression]):
     name = "SymPy"
 
     def __init__(self) -> None:
-        import sympy  # noqa: PLC0415
+        import sympy
 
         self._sympy: Any = sympy
 
