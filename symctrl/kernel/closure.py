@@ -33,7 +33,7 @@ def require_closed(statement: Statement) -> None:
     for assumption in statement.given:
         for ref in assumption.of:
             walk.listing(ref[0], "i", 0, None)
-    walk.listing(statement.claim.listing, "i", 0, None)
+    walk.listing(statement.claim.listing, "ij", 0, None)
     listings = {visit[0] for visit in walk.done}
     law_inputs = {(law, u) for law, table in statement.laws.items() for u in table}
     for what, all_of, used in (
