@@ -50,8 +50,21 @@ if TYPE_CHECKING:
     from symctrl.study import Study as Study
 
 _HOME = {"Study": "symctrl.study"} | dict.fromkeys(
-    "at_values conforms equal equivalent implies nonnegative nonzero positive positive_definite positive_semidefinite "
-    "skew_symmetric sufficiently_small symmetric".split(),
+    [
+        "at_values",
+        "conforms",
+        "equal",
+        "equivalent",
+        "implies",
+        "nonnegative",
+        "nonzero",
+        "positive",
+        "positive_definite",
+        "positive_semidefinite",
+        "skew_symmetric",
+        "sufficiently_small",
+        "symmetric",
+    ],
     "symctrl.statements",
 )
 __all__ = sorted(_HOME)  # noqa: PLE0605

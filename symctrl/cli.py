@@ -2,7 +2,6 @@
 
 Heavy libraries are imported by the command that uses them, so that `symctrl --help` is quick.
 """
-# ruff: noqa: PLC0415
 
 from __future__ import annotations
 

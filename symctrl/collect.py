@@ -1,7 +1,7 @@
 """From expressions to a problem: every name that a claim reaches, as instruction lists and assumptions.
 
-The problem holds exactly what is needed: the claim's graph, the definitions, motions and laws that it reaches, and those
-of the study's assumptions that speak only of symbols that occur.
+The problem holds exactly what is needed: the claim's graph, the definitions, motions and laws that it
+reaches, and those of the study's assumptions that speak only of symbols that occur.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import casadi as ca
 
@@ -56,8 +56,8 @@ class Collector:
     ) -> Problem:
         """The problem of an equation, a bound, definiteness or conformity, under hypotheses.
 
-        small: the gain for all of whose small positive values the claim is made. using: proved statements: a bound is
-        assumed, the right side of an equation takes the place of the name or rate on its left.
+        small: the gain for all of whose small positive values the claim is made. using: proved statements: a
+        bound is assumed, the right side of an equation takes the place of the name or rate on its left.
         """
         exprs, kind, shape = _sides(claim)
         matrix = None
@@ -91,7 +91,9 @@ class Collector:
         return pruned(made)
 
     def _replaced(self, made: Problem, used: Equal) -> Problem:
-        """The problem with the right side of a proved equation in the place of the name, or of the rate, on its left."""
+        """The problem with the right side of a proved equation in the place of the name, or of the rate, on
+        its left.
+        """
         record = used.left.args[0] if used.left.op == "deferred" else None
         if not isinstance(record, Named | Rate):
             raise TypeError(f"using: {used.text()} has no definition and no rate of one on its left")
@@ -99,11 +101,18 @@ class Collector:
         self.add(listing, [used.right])
         self._reach(listing)
         made = replace(
-            made, listings=self.listings, scalars=self.scalars, names=self.names, motion=self.motion, laws=self.laws
+            made,
+            listings=self.listings,
+            scalars=self.scalars,
+            names=self.names,
+            motion=self.motion,
+            laws=self.laws,
         )
         if isinstance(record, Named):
             shown = self._scalars_of(record, used.left)
-            names = made.names | {n: replace(made.names[n], of=(listing, k)) for k, n in enumerate(shown) if n in made.names}
+            names = dict(made.names) | {
+                n: replace(made.names[n], of=(listing, k)) for k, n in enumerate(shown) if n in made.names
+            }
             return replace(made, names=names)
         inner = record.body.args[0] if record.body.op == "deferred" else None
         if not isinstance(inner, Named | Rate):
@@ -122,7 +131,9 @@ class Collector:
         Reach(self, wanted=self._add_motion).listing(listing)
 
     def _advice(self, hint: Hint) -> Advice:
-        """The hint as a listing beside the statement. Raises TypeError where it speaks of what the claim does not."""
+        """The hint as a listing beside the statement. Raises TypeError where it speaks of what the claim does
+        not.
+        """
         exprs = [hint.times] if hint.times is not None else []
         exprs += [*hint.squares, *(part for form in hint.forms for part in form)]
         before = set(self.listings) | set(self.scalars) | set(self.names)
@@ -159,7 +170,9 @@ class Collector:
             self._scalar(star(scalar))
 
     def _shown(self, scalar: str, records: Mapping[str, Record], at_neighbour: bool) -> str:
-        """The name of a scalar in a listing: anonymous records get short names, and a lone neighbour is the node."""
+        """The name of a scalar in a listing: anonymous records get short names, and a lone neighbour is the
+        node.
+        """
         base, node, index = split(scalar)
         label = base if node is None else f"{base}.{node}"
         if label in records and not isinstance(records[label], Named):
@@ -267,14 +280,18 @@ class Collector:
             of = tuple((listing, k) for k in range(n * n))
             self.given.append(Assumption(claim.kind, of, written, about, n))
         else:
-            raise TypeError(f"{written} cannot be assumed: an assumption is an equation, a bound, definiteness or nonzero(x)")
+            raise TypeError(
+                f"{written} cannot be assumed: an assumption is an equation, a bound, definiteness or nonzero"
+            )
 
     def _each(self, kind: str, listing: str, expr: Expr, written: str, about: str) -> None:
         for k in range(expr.shape[0] * expr.shape[1]):
             self.given.append(Assumption(kind, ((listing, k),), written, about))
 
     def _assume_what_occurs(self) -> None:
-        """The study's assumptions about symbols that occur; an assumption may bring a bound's own symbol with it."""
+        """The study's assumptions about symbols that occur; an assumption may bring a bound's own symbol with
+        it.
+        """
         waiting = [a for a in self.study.assumed if a.about != "trajectory" or self.study.on_trajectory]
         while True:
             ready = [a for a in waiting if self._occurs(a.claim)]
@@ -285,7 +302,9 @@ class Collector:
                 self.assume(assumed.claim, assumed.about)
 
     def _occurs(self, claim: Statement) -> bool:
-        """Does a state or signal of the assumption occur in the problem, or any symbol of one about parameters?"""
+        """Does a state or signal of the assumption occur in the problem, or any symbol of one about
+        parameters?
+        """
         known = {star(n) for n in self.scalars}
         occurring, kinds = set(), set()
         for expr in _sides(claim)[0]:
@@ -300,7 +319,9 @@ class Collector:
 
 
 def _sides(claim: Statement) -> tuple[list[Expr], str, tuple[int, int]]:
-    """The expressions of a claim in the order of its listing's outputs, its kind, and the shape of its entries."""
+    """The expressions of a claim in the order of its listing's outputs, its kind, and the shape of its
+    entries.
+    """
     if isinstance(claim, Equal):
         return [claim.left, claim.right], "equal", claim.left.shape
     if isinstance(claim, Bound):
@@ -323,5 +344,3 @@ def _merged(code: Sequence[Instruction], outputs: Sequence[int]) -> Tape:
             new.append(moved)
         where.append(at)
     return Tape(tuple(new), tuple(where[r] for r in outputs))
-
-

@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Instance:
-    """variant: "printed" or "corrected". graph: of the fleet, if there is one. values: of parameters, by scalar name."""
+    """variant: "printed" or "corrected". graph: of the fleet, if there is one. values: of parameters, by
+    scalar name.
+    """
 
     variant: str = "printed"
     graph: nx.Graph | None = None
@@ -23,7 +25,7 @@ class Instance:
     reading: tuple[tuple[str, object], ...] = ()
 
 
-_current: ContextVar[Instance] = ContextVar("instance", default=Instance())
+_current: ContextVar[Instance] = ContextVar("instance", default=Instance())  # noqa: B039  (nothing changes it)
 
 
 def current() -> Instance:

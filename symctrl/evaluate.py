@@ -1,8 +1,9 @@
-"""The values of a problem's names in any domain: definitions, rates along the motion, laws, sums over a fleet.
+"""The values of a problem's names in any domain: definitions, rates along the motion, laws, sums over a
+fleet.
 
-Every quantity has a value at level 0; at level n it is the pair of its value and its derivative at level n - 1
-(domains.tangent). A rate is the derivative part of what it rates, one level higher. A binding says which nodes the
-letters i and j of a fleet's listings stand for.
+Every quantity has a value at level 0; at level n it is the pair of its value and its derivative at level n -
+1 (domains.tangent). A rate is the derivative part of what it rates, one level higher. A binding says which
+nodes the letters i and j of a fleet's listings stand for.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ class Environment:
             self._domains.append(Tangent(self._domains[-1]))
         return self._domains[level]
 
-    def outputs(self, listing: str, binding: Mapping[str, str], level: int = 0, law: str | None = None) -> list[Any]:
+    def outputs(
+        self, listing: str, binding: Mapping[str, str], level: int = 0, law: str | None = None
+    ) -> list[Any]:
         """All outputs of a listing at a level, with the law's inputs replaced by the law."""
         tape = self.problem.tape(listing)
         letters = {node for name in tape.inputs if (node := split(name)[1])}
@@ -99,7 +102,9 @@ class Environment:
         if general not in self.problem.motion:
             raise NoRate(_no_motion(name, self.problem.scalars[general], law))
         node = split(name)[1]
-        return Pair(below, self.output(self.problem.motion[general], {"i": node} if node else {}, level - 1, law))
+        return Pair(
+            below, self.output(self.problem.motion[general], {"i": node} if node else {}, level - 1, law)
+        )
 
     def _derivative(self, raised: Any, level: int) -> Any:
         """The derivative part of a value one level up: at level 0 the derivative itself."""

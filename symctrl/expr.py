@@ -377,7 +377,7 @@ def _raised(left: Liftable, right: Liftable) -> Expr:
 
 
 def _bound(left: Expr, relation: Relation, right: Liftable) -> Bound:
-    from symctrl.statements import compare  # noqa: PLC0415, statements are made of expressions and load after
+    from symctrl.statements import compare
 
     return compare(left, relation, lift(right))
 

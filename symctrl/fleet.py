@@ -1,7 +1,7 @@
 """A fleet on any graph: symbols of a generic node i and its neighbour j, sums over neighbours and over nodes.
 
-What is a sum over edges and nodes is written once for a generic node and edge, and holds for every undirected graph.
-Matrices of a graph (Laplacian, adjacency) are those of the instance at hand.
+What is a sum over edges and nodes is written once for a generic node and edge, and holds for every undirected
+graph. Matrices of a graph (Laplacian, adjacency) are those of the instance at hand.
 """
 
 from __future__ import annotations
@@ -36,7 +36,9 @@ class FleetSymbol:
 
     def __getitem__(self, node: Node) -> Expr:
         if not isinstance(node, Node):
-            raise TypeError(f"{self.name}[..] takes a node of the fleet (fleet.node or fleet.neighbour), not {node!r}")
+            raise TypeError(
+                f"{self.name}[..] takes a node of the fleet (fleet.node or fleet.neighbour), not {node!r}"
+            )
         tex = None if self.latex is None else rf"{self.latex}_{{{node.letter}}}"
         return symbol(f"{self.name}.{node.letter}", self.shape, tex, self.symmetric)
 
@@ -72,11 +74,18 @@ class Fleet:
     def input(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> FleetSymbol:
         return self._symbol(name, (size, 1), "input", unit, tex)
 
-    def parameter(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> FleetSymbol:
+    def parameter(
+        self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None
+    ) -> FleetSymbol:
         return self._symbol(name, (size, 1), "parameter", unit, tex)
 
     def disturbance(
-        self, name: str, size: int = 1, unit: str | None = None, bound: Expr | None = None, tex: str | None = None
+        self,
+        name: str,
+        size: int = 1,
+        unit: str | None = None,
+        bound: Expr | None = None,
+        tex: str | None = None,
     ) -> FleetSymbol:
         """A signal; with `bound`, each component lies between -bound and bound at every node."""
         made = self._symbol(name, (size, 1), "signal", unit, tex)
@@ -99,7 +108,13 @@ class Fleet:
         return pair
 
     def _symbol(
-        self, name: str, shape: tuple[int, int], kind: str, unit: str | None, tex: str | None, symmetric: bool = False
+        self,
+        name: str,
+        shape: tuple[int, int],
+        kind: str,
+        unit: str | None,
+        tex: str | None,
+        symmetric: bool = False,
     ) -> FleetSymbol:
         made = FleetSymbol(name, shape, tex, symmetric)
         self.study.declare(symbol(f"{name}.*", shape, tex, symmetric), kind, unit)
@@ -120,13 +135,15 @@ class Fleet:
         at_nodes = letters(body)
         if over.letter == "i":
             if "j" in at_nodes:
-                raise ValueError("a sum over the nodes i of an expression that speaks of a neighbour j: sum over j first")
+                raise ValueError(
+                    "a sum over the nodes i of an expression that speaks of a neighbour j: sum over j first"
+                )
             label, tex, total = f"total_{fingerprint(body)}", rf"\sum_i {_bracketed(body)}", True
         else:
             if "i" not in at_nodes and at is not self.node:
                 raise ValueError(
-                    "a sum over neighbours j whose summand does not speak of the node i (a neighbour's own sum has no "
-                    "name here): if it is meant, write fleet.sum(j, .., at=i)"
+                    "a sum over neighbours j whose summand does not speak of the node i (a neighbour's own "
+                    "sum has no name here): if it is meant, write fleet.sum(j, .., at=i)"
                 )
             label, tex, total = f"sum_{fingerprint(body)}.i", rf"\sum_{{j}} {_bracketed(body)}", False
         return deferred(Sum(label, tex, body, total), body.shape)
@@ -149,7 +166,9 @@ class Fleet:
     def laplacian(self) -> Expr:
         """The Laplacian matrix (degrees minus adjacency) of the instance's graph, n x n."""
         rows = self._rows()
-        return lift([[sum(row) if r == c else -row[c] for c in range(len(row))] for r, row in enumerate(rows)])
+        return lift(
+            [[sum(row) if r == c else -row[c] for c in range(len(row))] for r, row in enumerate(rows)]
+        )
 
     def _rows(self) -> list[list[int]]:
         graph = self._graph()

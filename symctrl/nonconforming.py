@@ -34,7 +34,7 @@ def size(x: Expr) -> str:
 
 def short_text(expr: Expr, limit: int = 120) -> str:
     """The expression in plain mathematics, cut in its middle where it is long."""
-    from symctrl.text import text  # noqa: PLC0415, the printer knows Expr and loads after it
+    from symctrl.text import text  # the printer knows Expr and loads after it
 
     full = text(expr)
     return full if len(full) <= limit else f"{full[: limit // 2]} ... {full[-limit // 3 :]}"

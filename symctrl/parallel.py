@@ -35,7 +35,7 @@ class Request:
         study = registry.load(self.study)
         if self.graph is None and not self.values:
             return study
-        from symctrl import graphs  # noqa: PLC0415  (networkx is slow to import)
+        from symctrl import graphs  # networkx is slow to import
 
         with registry.locate(self.study).blamed():
             return study.at(graphs.parse(self.graph) if self.graph else None, self.values)
@@ -74,7 +74,7 @@ def _start(request: Request, folder: Path, run: str) -> None:
 
 
 def _decide(name: str) -> None:
-    from symctrl.verify import verify  # noqa: PLC0415  (heavy)
+    from symctrl.verify import verify
 
     assert _worker is not None
     study, store = _worker

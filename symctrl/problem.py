@@ -59,7 +59,8 @@ class Assumption:
 class Claim:
     """`kind` is equal, nonnegative, positive, positive_definite, positive_semidefinite or conforms.
 
-    matrix: for definiteness, the tree of docs/certificates.md. small: a gain; the claim is for its small positive values.
+    matrix: for definiteness, the tree of docs/certificates.md. small: a gain; the claim is for its small
+    positive values.
     """
 
     kind: str
@@ -77,7 +78,8 @@ class Claim:
 
 @dataclass(frozen=True)
 class Advice:
-    """An author's hint for a bound, as a listing beside the statement: [times], squares, then for each form P and x.
+    """An author's hint for a bound, as a listing beside the statement: [times], squares, then for each form P
+    and x.
 
     sizes: of the vectors of the forms.
     """

@@ -80,7 +80,9 @@ class Reach:
 
 
 def pruned(problem: Problem, closed: Collection[str] = ()) -> Problem:
-    """The problem with only what its claim and the assumptions about that read. closed: definitions taken as free."""
+    """The problem with only what its claim and the assumptions about that read. closed: definitions taken as
+    free.
+    """
     reach = Reach(problem, closed)
     reach.listing(problem.claim.listing)
     kept: list[Assumption] = []
@@ -99,7 +101,10 @@ def pruned(problem: Problem, closed: Collection[str] = ()) -> Problem:
     names = {n: m for n, m in problem.names.items() if n in reach.read and not _is_closed(m, closed)}
     scalars = {n: k for n, k in problem.scalars.items() if n in reach.read or n in reach.moved}
     scalars |= {n: "signal" for n, m in problem.names.items() if n in reach.read and _is_closed(m, closed)}
-    laws = {law: {u: of for u, of in table.items() if (law, u) in reach.replaced} for law, table in problem.laws.items()}
+    laws = {
+        law: {u: of for u, of in table.items() if (law, u) in reach.replaced}
+        for law, table in problem.laws.items()
+    }
     laws = {law: table for law, table in laws.items() if table}
     entered = {name for name, _, _ in reach.visits} - set(closed)
     return replace(
@@ -114,10 +119,11 @@ def pruned(problem: Problem, closed: Collection[str] = ()) -> Problem:
 
 
 def closings(problem: Problem) -> Iterator[Problem]:
-    """The problem with definitions taken as free symbols: all that can be, those that reach a division, those that divide.
+    """The problem with definitions taken as free symbols: all that can be, those that reach a division, those
+    that divide.
 
-    What holds for all values of these symbols holds for those of the definitions. A definition can be closed where it is
-    read only at level 0.
+    What holds for all values of these symbols holds for those of the definitions. A definition can be closed
+    where it is read only at level 0.
     """
     every = {m.of[0] for m in problem.names.values() if m.is_ == "value" and m.of is not None}
     dividing = {name for name in every if _divides(problem, name)}
@@ -159,11 +165,12 @@ def _divides(problem: Problem, name: str) -> bool:
 def with_motion(problem: Problem, name: str, size: Sequence[str], listing: str) -> Problem:
     """The problem in which a name is a state of its own whose motion is a listing.
 
-    size: its scalars, starred. Where the name is the rate of plain states, their motion is the name from now on.
+    size: its scalars, starred. Where the name is the rate of plain states, their motion is the name from now
+    on.
     """
     names = {n: m for n, m in problem.names.items() if n not in size}
-    scalars = problem.scalars | dict.fromkeys(size, "state")
-    motion = problem.motion | {scalar: (listing, k) for k, scalar in enumerate(size)}
+    scalars = dict(problem.scalars) | dict.fromkeys(size, "state")
+    motion = dict(problem.motion) | {scalar: (listing, k) for k, scalar in enumerate(size)}
     listings = dict(problem.listings)
     meaning = problem.names[size[0]]
     assert meaning.of is not None

@@ -1,4 +1,6 @@
-"""What a deferred quantity stands for: a definition's value, a rate, a sum over a fleet, an undefined letter."""
+"""What a deferred quantity stands for: a definition's value, a rate, a sum over a fleet, an undefined
+letter.
+"""
 
 from __future__ import annotations
 
@@ -61,13 +63,19 @@ def letters(expr: Expr) -> set[str]:
 
 
 def rate(body: Expr, law: str | None) -> Expr:
-    """The deferred rate of an expression at no node or at one. Raises ValueError for one that speaks of two."""
+    """The deferred rate of an expression at no node or at one. Raises ValueError for one that speaks of
+    two.
+    """
     at = letters(body)
     if len(at) > 1:
         raise ValueError("the rate of an expression at two nodes: write the rates of its parts")
     where = f".{next(iter(at))}" if at else ""
     written = latex(body)
-    dotted = rf"\dot{{{written}}}" if body.op in ("symbol", "deferred") else rf"\frac{{d}}{{dt}}\left({written}\right)"
+    dotted = (
+        rf"\dot{{{written}}}"
+        if body.op in ("symbol", "deferred")
+        else rf"\frac{{d}}{{dt}}\left({written}\right)"
+    )
     return deferred(Rate(f"rate_{fingerprint(body, law or '')}{where}", dotted, body, law), body.shape)
 
 

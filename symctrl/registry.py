@@ -62,7 +62,7 @@ def load(name_or_path: str) -> Study:
     place = locate(name_or_path)
     with place.blamed():
         module = _run_file(place.origin) if place.module is None else import_module(place.module)
-    from symctrl.study import Study  # noqa: PLC0415  (heavy, and the study has imported it by now)
+    from symctrl.study import Study
 
     if not hasattr(module, "study"):
         raise StudyFailedError(f'{place.origin}: has no `study`; it needs study = Study("name", source="..")')
@@ -163,7 +163,7 @@ def _run_file(path: Path) -> ModuleType:
 
 
 def _asked_in_vain(name: str, error: BaseException) -> BaseException:
-    from symctrl.study import StudyError  # noqa: PLC0415  (heavy)
+    from symctrl.study import StudyError
 
     return InputError(f"study {name}: {error}") if isinstance(error, StudyError) else error
 

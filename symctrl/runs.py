@@ -73,7 +73,7 @@ class _Run:
     watch: Callable[[str], AbstractContextManager[Progress]]
 
     def decide(self, request: Request, study: Study, only: Collection[str] | None) -> Report:
-        from symctrl.verify import verify  # noqa: PLC0415  (heavy)
+        from symctrl.verify import verify
 
         with self.watch(study.name) as progress, registry.locate(request.study).blamed():
             if self.jobs > 1:

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 def with_conditions(study: Study, claim: Any, using: Sequence[Any], verdict: Verdict, row: Row) -> Row:
     """The row with each condition of its proof and who vouches for it.
 
-    An assumption about the trajectory that the study makes, or the exact values of the parameters: found by deciding the
-    claim again with these and seeing which conditions are gone.
+    An assumption about the trajectory that the study makes, or the exact values of the parameters: found by
+    deciding the claim again with these and seeing which conditions are gone.
     """
     if not verdict.conditions:
         return row
@@ -97,14 +97,22 @@ def refuse_needless(study: Study, rows: Sequence[Row]) -> None:
         by_base.setdefault(row.id.partition("[")[0], []).append(row)
     for row in rows:
         printed = by_base.get(row.corrects or "", [])
-        if printed and all(p.stands for p in printed) and study.entries[printed[0].id.partition("[")[0]].form == "printed":
-            raise StudyError(f"{row.id} corrects {row.corrects}, which is proved as printed: there is nothing to correct")
+        if (
+            printed
+            and all(p.stands for p in printed)
+            and study.entries[printed[0].id.partition("[")[0]].form == "printed"
+        ):
+            raise StudyError(
+                f"{row.id} corrects {row.corrects}, which is proved as printed: there is nothing to correct"
+            )
 
 
 def _conditions(
     study: Study, claim: Any, using: Sequence[Any], id_: str, values: dict[str, Fraction] | None, along: bool
 ) -> list[str] | None:
-    """The conditions of the claim decided under the trajectory assumptions, or at exact values; None if not proved so."""
+    """The conditions of the claim decided under the trajectory assumptions, or at exact values; None if not
+    proved so.
+    """
     try:
         with study.along_trajectory(along):
             verdict = verdict_of(parts(study, claim, id_, values, using), None)

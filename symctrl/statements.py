@@ -77,9 +77,11 @@ class Definite(Statement):
 
 @dataclass(frozen=True, eq=False)
 class Hint:
-    """What an author knows of a proof of a bound: times * expr is a combination in which these squares and forms occur.
+    """What an author knows of a proof of a bound: times * expr is a combination in which these squares and
+    forms occur.
 
-    times: known to be positive. squares: scalars whose squares occur. forms: (P, x) for terms xᵀPx with P assumed definite.
+    times: known to be positive. squares: scalars whose squares occur. forms: (P, x) for terms xᵀPx with P
+    assumed definite.
     """
 
     times: Expr | None = None
@@ -315,7 +317,9 @@ def compare(left: Expr, relation: Relation, right: Expr) -> Bound:
     return Bound(difference, not relation.endswith("="), left, relation, right)
 
 
-def implies(hypotheses: Plain | Sequence[Plain], claim: Plain, by: Sequence[Liftable] = ()) -> Implies:
+def implies(
+    hypotheses: Statement | Sequence[Statement], claim: Plain, by: Sequence[Liftable] = ()
+) -> Implies:
     """The claim under one hypothesis or a list of them.
 
     by: cofactors for the equations among the hypotheses, in their order; a proof is looked for where there

@@ -14,7 +14,9 @@ Tree = dict[str, Any]
 
 
 def lowered(matrix: Expr) -> tuple[Tree, list[Expr]]:
-    """The tree of a claim of definiteness, and the expressions whose entries, one after another, its leaves count."""
+    """The tree of a claim of definiteness, and the expressions whose entries, one after another, its leaves
+    count.
+    """
     parts: list[Expr] = []
     return _tree(matrix, parts), parts
 

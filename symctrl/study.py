@@ -1,4 +1,6 @@
-"""A study: one paper, or a user's own design, written once as expressions, definitions, laws and statements."""
+"""A study: one paper, or a user's own design, written once as expressions, definitions, laws and
+statements.
+"""
 
 from __future__ import annotations
 
@@ -11,8 +13,8 @@ from typing import TYPE_CHECKING, Any
 from symctrl.context import Instance, current
 from symctrl.entries import component_names
 from symctrl.expr import Expr, Liftable, deferred, foreign, lift, symbol
-from symctrl.fleet import Fleet, Node
-from symctrl.records import Undefined, letters, rate
+from symctrl.fleet import Fleet
+from symctrl.records import Undefined, rate
 from symctrl.statements import Bound, Definite, Equal, Nonzero, Statement, equal
 from symctrl.vectors import stack
 from symctrl.written import Definition, Entry, Law, StudyError, enter
@@ -26,7 +28,9 @@ __all__ = ["Quaternion", "Study", "StudyError", "Symbol"]
 
 @dataclass(frozen=True)
 class Symbol:
-    """A declared symbol. kind: state, parameter, input or signal. unit: None where the equations shall say it."""
+    """A declared symbol. kind: state, parameter, input or signal. unit: None where the equations shall say
+    it.
+    """
 
     expr: Expr
     kind: str
@@ -83,7 +87,9 @@ class Study:
 
     # Symbols
 
-    def declare(self, expr: Expr, kind: str, unit: str | None, values: Sequence[Fraction] = (), gain: bool = False) -> Expr:
+    def declare(
+        self, expr: Expr, kind: str, unit: str | None, values: Sequence[Fraction] = (), gain: bool = False
+    ) -> Expr:
         """Enter a symbol. Raises StudyError for a name that is taken."""
         name, _, symmetric = expr.args
         if name in self.symbols:
@@ -101,7 +107,12 @@ class Study:
         return self.declare(symbol(name, (size, 1), tex), "input", unit)
 
     def disturbance(
-        self, name: str, size: int = 1, unit: str | None = None, bound: Liftable | None = None, tex: str | None = None
+        self,
+        name: str,
+        size: int = 1,
+        unit: str | None = None,
+        bound: Liftable | None = None,
+        tex: str | None = None,
     ) -> Expr:
         """A signal that may take any value; with `bound`, each component lies between -bound and bound."""
         made = self.declare(symbol(name, (size, 1), tex), "signal", unit)
@@ -122,7 +133,8 @@ class Study:
     ) -> Expr:
         """A constant: symbolic in decisions, with an exact value or a range where it is given.
 
-        value: a number, a string like "0.95" or "1/3", or a list. low, high: assumed bounds. within: "10%" of the value.
+        value: a number, a string like "0.95" or "1/3", or a list. low, high: assumed bounds. within: "10%" of
+        the value.
         """
         numbers = _numbers(value)
         made = self.declare(symbol(name, shape, tex), "parameter", unit, numbers)
@@ -135,17 +147,23 @@ class Study:
         return made
 
     def gain(self, name: str, value: Any = None, unit: str | None = None, tex: str | None = None) -> Expr:
-        """A positive constant that a designer chooses. Without a unit it gets the one that the equations force."""
+        """A positive constant that a designer chooses. Without a unit it gets the one that the equations
+        force.
+        """
         made = self.declare(symbol(name, (1, 1), tex), "parameter", unit, _numbers(value), gain=True)
         self.assume(made > 0)
         return made
 
     def inertia(self, name: str, value: Any = None, unit: str | None = "kg*m^2") -> Expr:
-        """A symmetric positive definite 3x3 matrix. value: its rows. Raises StudyError for rows that are not symmetric."""
+        """A symmetric positive definite 3x3 matrix. value: its rows. Raises StudyError for rows that are not
+        symmetric.
+        """
         rows = [[Fraction(str(x)) for x in row] for row in value] if value is not None else []
         if rows != [list(column) for column in zip(*rows, strict=True)]:
             raise StudyError(f"the inertia {name} must be symmetric; got {value}")
-        made = self.declare(symbol(name, (3, 3), symmetric=True), "parameter", unit, [x for row in rows for x in row])
+        made = self.declare(
+            symbol(name, (3, 3), symmetric=True), "parameter", unit, [x for row in rows for x in row]
+        )
         self.assume_definite(made)
         return made
 
@@ -175,7 +193,9 @@ class Study:
         """Assumptions of the whole study. about: parameter, initial, signal or trajectory."""
         for claim in claims:
             if not isinstance(claim, Equal | Bound | Definite | Nonzero):
-                raise TypeError(f"an assumption is an equation, a bound, definiteness or nonzero(x), not {claim!r}")
+                raise TypeError(
+                    f"an assumption is an equation, a bound, definiteness or nonzero(x), not {claim!r}"
+                )
             self.assumed.append(Assumed(claim, about))
 
     def assume_definite(self, M: Expr) -> None:
@@ -191,20 +211,26 @@ class Study:
             self.assume(bound - component >= 0, bound + component >= 0, about="signal")
 
     def motion(self, x: Expr | Quaternion, xdot: Expr) -> None:
-        """The time derivative of a state. Raises StudyError where the shapes differ or x has a motion already."""
+        """The time derivative of a state. Raises StudyError where the shapes differ or x has a motion
+        already.
+        """
         if isinstance(x, Quaternion):
             self.motion(x.vector, xdot[:3])
             self.motion(x.scalar, xdot[3])
             return
         xdot = lift(xdot)
         if x.op != "symbol" or x.shape != xdot.shape:
-            raise StudyError(f"motion takes a state and its time derivative of the same shape, not {x!r} and {xdot!r}")
+            raise StudyError(
+                f"motion takes a state and its time derivative of the same shape, not {x!r} and {xdot!r}"
+            )
         if any(known.args[0] == x.args[0] for known, _ in self.motions):
             raise StudyError(f"the state {x.args[0]} has a motion already")
         self.motions.append((x, xdot))
 
     def rate(self, x: Any, law: Law | None = None) -> Expr:
-        """The time derivative of a definition or expression along the motion, under a law. It is never typed in."""
+        """The time derivative of a definition or expression along the motion, under a law. It is never typed
+        in.
+        """
         return rate(x() if isinstance(x, Definition) else lift(x), law.name if law is not None else None)
 
     # Statements
@@ -226,10 +252,14 @@ class Study:
         return lambda function: enter(self, function, "claimed", equation, **options)
 
     def corrected(self, printed: Any, why: str, **options: Any) -> Callable[[Callable[..., Any]], Any]:
-        """Decorator: the smallest change that makes a printed statement, definition or law hold; `why` in one sentence."""
+        """Decorator: the smallest change that makes a printed statement, definition or law hold; `why` in one
+        sentence.
+        """
         entry: Entry = printed.entry if isinstance(printed, Definition | Law) else printed
         if not isinstance(entry, Entry) or entry.form == "corrected":
-            raise StudyError("corrected(..) takes the printed statement, definition or law itself, not its name")
+            raise StudyError(
+                "corrected(..) takes the printed statement, definition or law itself, not its name"
+            )
 
         def decorate(function: Callable[..., Any]) -> Any:
             made = enter(self, function, "corrected", entry.equation, corrects=entry.id, why=why, **options)
@@ -260,7 +290,9 @@ class Study:
     # Instances
 
     def at(self, graph: nx.Graph | None = None, values: Mapping[str, str] | None = None) -> Study:
-        """The study on a graph and with other exact values. Raises StudyError for unknown names and gains that are not positive."""
+        """The study on a graph and with other exact values. Raises StudyError for unknown names and gains
+        that are not positive.
+        """
         from symctrl.graphs import name
 
         if graph is not None and self.of_fleet is None:
@@ -297,7 +329,7 @@ class Study:
     def all_values(self) -> dict[str, Fraction]:
         """The exact values of all parameters that have one, in the instance at hand."""
         declared = {name: v for s in self.symbols.values() for name, v in s.values.items()}
-        return declared | {name: v for name, v in current().values.items()}
+        return declared | dict(current().values)
 
     def _checked_value(self, key: str, text: str) -> Fraction:
         from difflib import get_close_matches
@@ -332,5 +364,3 @@ def _range(name: str, numbers: list[Fraction], within: str) -> tuple[Fraction, F
         raise StudyError(f'{name}: within= takes a percentage of the one value, like within="10%"')
     spread = abs(numbers[0]) * Fraction(within[:-1]) / 100
     return numbers[0] - spread, numbers[0] + spread
-
-

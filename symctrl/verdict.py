@@ -35,7 +35,8 @@ class Verdict:
     """The answer to one claim.
 
     certificate: of a proof, or of a refutation by a witness; None where there is neither.
-    witness: exact values of all symbols at which the claim fails, as strings "p/q" (and the graph of a fleet).
+    witness: exact values of all symbols at which the claim fails, as strings "p/q" (and the graph of a
+    fleet).
     residual: LaTeX of left minus right where an identity fails.
     """
 

@@ -34,7 +34,9 @@ class ToolError(RuntimeError):
 
 @dataclass(frozen=True)
 class Decided:
-    """A claim with its problems and verdict. claim: what the function returned, or None where it does not conform."""
+    """A claim with its problems and verdict. claim: what the function returned, or None where it does not
+    conform.
+    """
 
     claim: Any
     parts: tuple[Part, ...]
@@ -43,7 +45,10 @@ class Decided:
 
 
 def verify(
-    study: Study, only: Collection[str] | None = None, store: Store | None = None, progress: Progress = lambda _: None
+    study: Study,
+    only: Collection[str] | None = None,
+    store: Store | None = None,
+    progress: Progress = lambda _: None,
 ) -> Report:
     """All rows of the study, or those of `only`. Raises StudyError for an unknown id, ToolError."""
     began = time.perf_counter()
@@ -57,7 +62,9 @@ def verify(
     rows = standing.settle(study, rows, complete=only is None)
     used = {row.equation for row in rows}
     missing = tuple(n for n in study.numbers if n not in used and not any(n in e.split(", ") for e in used))
-    inputs = digest([study.name, study.graph, {k: str(v) for k, v in study.instance.values.items()}, sorted(wanted)])
+    inputs = digest(
+        [study.name, study.graph, {k: str(v) for k, v in study.instance.values.items()}, sorted(wanted)]
+    )
     return Report(
         study.name, study.source, study.graph, tuple(rows), missing, inputs, time.perf_counter() - began
     )
@@ -127,7 +134,9 @@ def _again_with_corrections(
         return printed
     standing_in = printed.verdict.outcome is Outcome.ILL_FORMED and again.claim is not None
     if standing_in and again.verdict.outcome is not Outcome.ILL_FORMED:
-        reason = f"{printed.verdict.reason}; with the corrected definition in its place: {again.verdict.reason}"
+        reason = (
+            f"{printed.verdict.reason}; with the corrected definition in its place: {again.verdict.reason}"
+        )
         return replace(again, verdict=replace(again.verdict, reason=reason))
     how = (
         "it holds with the corrected definitions: it is wrong only through what it uses"
@@ -186,7 +195,11 @@ def _kind(claim: Any) -> str:
 
 
 def _given(found: tuple[Part, ...]) -> tuple[Given, ...]:
-    return tuple(dict.fromkeys(Given(a.text, a.about) for part in found for a in part.problem.given if a.about != PROVED))
+    return tuple(
+        dict.fromkeys(
+            Given(a.text, a.about) for part in found for a in part.problem.given if a.about != PROVED
+        )
+    )
 
 
 def _holds_for(study: Study, decided: Decided) -> str:
@@ -200,11 +213,13 @@ def _rests_on(study: Study, entry: Entry, found: tuple[Part, ...]) -> tuple[str,
     reached = {name.removeprefix("law ") for part in found for name in part.problem.listings}
     own = {entry.id, entry.corrects}
     named = [id_ for id_ in study.entries if id_ in reached - own and _is_named(study, id_)]
-    return tuple([*named, *(used.id for used in entry.using)])
+    return (*named, *(used.id for used in entry.using))
 
 
 def _finding(entry: Entry, verdict: Verdict) -> str | None:
-    sentence = entry.finding.get(verdict.outcome.value) or (entry.why if verdict.outcome is Outcome.PROVED else None)
+    sentence = entry.finding.get(verdict.outcome.value) or (
+        entry.why if verdict.outcome is Outcome.PROVED else None
+    )
     if sentence is None:
         return None
     fields: Mapping[str, Any] = {"witness": verdict.witness or {}, "residual": verdict.residual or ""}
@@ -215,7 +230,9 @@ def _finding(entry: Entry, verdict: Verdict) -> str | None:
 
 
 def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
-    """Twins and floating-point residuals of an equation. Raises ToolError where these contradict the proof."""
+    """Twins and floating-point residuals of an equation. Raises ToolError where these contradict the
+    proof.
+    """
     if not isinstance(decided.claim, Equal) or len(decided.parts) != 1:
         return row
     found = evidence.numeric(decided.parts[0].problem)
@@ -225,5 +242,3 @@ def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
             "at a random admissible point"
         )
     return replace(row, numeric=found, twins=evidence.twins(study, decided.claim, row.id))
-
-

@@ -1,4 +1,6 @@
-"""What an author writes as functions: statements, definitions and laws, entered by name and called when needed."""
+"""What an author writes as functions: statements, definitions and laws, entered by name and called when
+needed.
+"""
 
 from __future__ import annotations
 
@@ -55,7 +57,9 @@ class Entry:
             arguments.append(self.readings[reading])
         result = self.function(*arguments)
         if result is None:
-            raise StudyError(f"{self.id}: the function returns nothing; it must return the {_product(self.form)}")
+            raise StudyError(
+                f"{self.id}: the function returns nothing; it must return the {_product(self.form)}"
+            )
         return result
 
 
@@ -71,7 +75,9 @@ def enter(
     using: Any = (),
     finding: Mapping[str, str] | None = None,
 ) -> Entry:
-    """Enter a function under its name. Raises StudyError for a second id, a missing sentence, or wrong arguments."""
+    """Enter a function under its name. Raises StudyError for a second id, a missing sentence, or wrong
+    arguments.
+    """
     name = function.__name__
     if name in study.entries:
         raise StudyError(f"there are two functions {name} in the study {study.name}; a name is the id of one")
@@ -86,13 +92,26 @@ def enter(
     others = len(parameters) - len(nodes)
     if others != bool(readings) or (others and parameters[-1] in nodes):
         raise StudyError(
-            f"{name}: a statement takes the nodes i and j of a fleet and, last, the reading that readings= gives"
+            f"{name}: a function takes the nodes i and j of a fleet and, last, the reading of readings="
         )
     outcomes = dict(finding or {})
     if unknown := set(outcomes) - {"proved", "refuted", "ill-formed", "undecided"}:
-        raise StudyError(f"{name}: finding= has a sentence for each outcome; {', '.join(sorted(unknown))} is none")
+        raise StudyError(
+            f"{name}: finding= has a sentence for each outcome; {', '.join(sorted(unknown))} is none"
+        )
     entry = Entry(
-        name, equation, form, function, sentence, nodes, dict(readings or {}), reading, corrects, why, tuple(using), outcomes
+        name,
+        equation,
+        form,
+        function,
+        sentence,
+        nodes,
+        dict(readings or {}),
+        reading,
+        corrects,
+        why,
+        tuple(using),
+        outcomes,
     )
     study.entries[name] = entry
     return entry
@@ -118,7 +137,9 @@ class Definition:
         if len(nodes) > 1:
             return lift(self.entry.function(*nodes))
         where = f".{nodes[0].letter}" if nodes else ""
-        return deferred(Named(self.entry.id + where, _label_latex(self.entry.id, where), self.body()), self.body().shape)
+        return deferred(
+            Named(self.entry.id + where, _label_latex(self.entry.id, where), self.body()), self.body().shape
+        )
 
     def variant(self) -> Entry:
         """The entry that holds in the instance at hand: the printed one, or its correction."""
@@ -177,8 +198,8 @@ class Law:
             raise Nonconforming(f"law {entry.id} {entry.equation}: {error}") from None
         if made.shape != self.target.shape:
             raise Nonconforming(
-                f"law {entry.id} {entry.equation}: the input is {self.target.shape[0]}x{self.target.shape[1]}, "
-                f"the law {made.shape[0]}x{made.shape[1]}"
+                f"law {entry.id} {entry.equation}: the input is "
+                f"{self.target.shape[0]}x{self.target.shape[1]}, the law {made.shape[0]}x{made.shape[1]}"
             )
         return made
 

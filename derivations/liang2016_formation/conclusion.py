@@ -43,7 +43,8 @@ def zero_square_gives_equal_vectors():
 @study.printed(
     "after (10)",
     finding={
-        "refuted": "Equal vector parts leave the sign of the scalar part open: the attitudes may differ by a turn."
+        "refuted": "Equal vector parts leave the sign of the scalar part open: "
+        "the attitudes may differ by a turn."
     },
 )
 def equal_vectors_give_equal_attitude():

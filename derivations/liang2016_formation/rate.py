@@ -93,7 +93,7 @@ def rate_of_V_i_closed(i, parts):
 @study.corrected(
     rate_of_V_i_closed,
     using=[closed_loop_corrected],
-    why="K_p is K_q, and the disturbance enters with tau, not with |tau|: its sign is not the one that helps.",
+    why="K_p is K_q, and the disturbance enters with tau, not with |tau|: its sign need not help.",
 )
 def rate_of_V_i_corrected(i):
     """The rate of V_i along the closed loop."""
@@ -147,7 +147,7 @@ def M():
 
 @study.corrected(
     M,
-    why="The rate of V has K_o - m_i beta on the diagonal and beta, not beta/2, beside it: M = K_o I - beta L.",
+    why="The rate of V has K_o - m_i beta on the diagonal and beta beside it: M = K_o I - beta L.",
 )
 def M_corrected():
     return K_o * eye(fleet.size) - beta * fleet.laplacian()

@@ -115,7 +115,7 @@ def _same_statement(problem: Problem, known: Verdict) -> bool:
     assert known.certificate is not None
     stated = dict(known.certificate["statement"])
     stated["conditions"] = []
-    return stated == json.loads(json.dumps(problem.statement()))
+    return bool(stated == json.loads(json.dumps(problem.statement())))
 
 
 def _with_reason(verdict: Verdict, reason: str) -> Verdict:
