@@ -1,7 +1,8 @@
 """Second evidence and negative twins: what stands beside a verdict and never makes one.
 
-Every equation is also evaluated in floating point at random admissible points, with its rates; the residual is relative to
-the largest intermediate value. The twins of an equation are the claims in which one addend as written is missing.
+Every equation is also evaluated in floating point at random admissible points, with its rates; the residual
+is relative to the largest intermediate value. The twins of an equation are the claims in which one addend as
+written is missing.
 """
 
 from __future__ import annotations
@@ -16,8 +17,9 @@ import numpy as np
 from symctrl.collect import Collector
 from symctrl.decide.identity import vanishes
 from symctrl.decide.place import evaluation
-from symctrl.decide.points import NoPoint, points
+from symctrl.decide.points import points
 from symctrl.decide.session import Session, exactly
+from symctrl.decide.solve import NoPoint
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.floating import FloatDomain
 from symctrl.domains.fraction import FractionDomain, NoExactValue
@@ -38,14 +40,18 @@ TOLERANCE = 1e-9
 
 
 def numeric(problem: Problem) -> Numeric | None:
-    """The largest relative residual of an equation over random admissible points; None where no point is found."""
+    """The largest relative residual of an equation over random admissible points; None where no point is
+    found.
+    """
     worst, count = 0.0, 0
     try:
         for place in points(problem, seed=2):
             domain = FloatDomain()
             outputs = evaluation(problem, place, domain).outputs(problem.claim.listing, place.binding)
             half = len(outputs) // 2
-            difference = max(abs(float(a) - float(b)) for a, b in zip(outputs[:half], outputs[half:], strict=True))
+            difference = max(
+                abs(float(a) - float(b)) for a, b in zip(outputs[:half], outputs[half:], strict=True)
+            )
             scale = float(np.max(domain.largest))
             if np.isfinite(difference):
                 worst = max(worst, difference / scale if scale else difference)
@@ -58,11 +64,17 @@ def numeric(problem: Problem) -> Numeric | None:
 
 
 def twins(study: Study, claim: Equal, id_: str) -> Twins:
-    """One twin for each addend as written on the sides that the author typed, and one for the sides being the same."""
-    addends = [t for side in (claim.left, claim.right) if not _is_rate(side) for t in terms(side) if not _is_zero(t)]
+    """One twin for each addend as written on the sides that the author typed, and one for the sides being the
+    same.
+    """
+    addends = [
+        t for side in (claim.left, claim.right) if not _is_rate(side) for t in terms(side) if not _is_zero(t)
+    ]
     if len(addends) == 1 and not any(map(_is_rate, (claim.left, claim.right))) and _is_zero(claim.right):
         addends = []
-    still_true = [f"without {text(t)}" for t, gone in zip(addends, _vanishing(study, addends, id_), strict=True) if gone]
+    still_true = [
+        f"without {text(t)}" for t, gone in zip(addends, _vanishing(study, addends, id_), strict=True) if gone
+    ]
     problem = Collector(study).problem(claim, id_)
     outputs = problem.listings["claim"].outputs
     half = len(outputs) // 2
@@ -80,7 +92,9 @@ def _vanishes(problem: Problem) -> bool:
     """Is every entry zero on the domain? A few points say no; only the exact domain says yes."""
     try:
         for place in islice(points(problem), POINTS):
-            if any(evaluation(problem, place, FractionDomain()).outputs(problem.claim.listing, place.binding)):
+            if any(
+                evaluation(problem, place, FractionDomain()).outputs(problem.claim.listing, place.binding)
+            ):
                 return False
     except (NoPoint, NoExactValue, ZeroDivisionError):
         pass

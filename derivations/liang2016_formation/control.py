@@ -72,7 +72,8 @@ def theta():
     is.
 
     The Schur complement of the spokes, 1/2 - m (beta/2) (4/(K_q + beta K_o)) (beta/2), is that of the lower
-    entry. """
+    entry.
+    """
     return block([["1/2", beta / 2], [beta / 2, stiffness() / (4 * m)]])
 
 

@@ -24,7 +24,9 @@ def attempt(problem: Problem) -> Attempt:
     try:
         proof = exactly(problem, lambda session: _proof(session, problem.claim.kind == "positive"))
         if proof is not None:
-            return Attempt(proof=proof, reason="a combination of assumptions and squares", method="combination")
+            return Attempt(
+                proof=proof, reason="a combination of assumptions and squares", method="combination"
+            )
     except Unsupported as error:
         reason = str(error)
     found = refute(problem, TRIES)

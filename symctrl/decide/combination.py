@@ -2,7 +2,7 @@
 
 The candidates are assumptions, their pairwise products and monomials, each times squares; a linear programme
 in floating point chooses among them, and the multipliers are solved for exactly. A quadratic form in the
-symbols of unknown sign is completed to squares by its exact LDLᵀ. """
+symbols of unknown sign is completed to squares by its exact LDLᵀ."""
 
 from __future__ import annotations
 
@@ -70,7 +70,9 @@ def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | N
     return None
 
 
-def terms_of(session: Session, value: Exact, strict: bool, known: Known | None = None) -> list[list[Any]] | None:
+def terms_of(
+    session: Session, value: Exact, strict: bool, known: Known | None = None
+) -> list[list[Any]] | None:
     """The terms of a combination that proves the value nonnegative (positive if strict), or None."""
     known = known or Known()
     p = session.carrier(value)
@@ -97,7 +99,12 @@ def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | No
         sign = signs.of(f)
         if e % 2 and not (sign == "positive" or (sign == "nonnegative" and not strict)):
             return None
-        if strict and e % 2 == 0 and sign not in ("positive", "nonzero") and k not in session.domain.divided():
+        if (
+            strict
+            and e % 2 == 0
+            and sign not in ("positive", "nonzero")
+            and k not in session.domain.divided()
+        ):
             return None
         if e % 2:
             known.append(field.json(f))
@@ -132,7 +139,11 @@ def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
             continue
         square = field.polynomial(0)
         for r in range(k, len(basis)):
-            square = square + basis[r] * field.polynomial(Fraction(lower[r][k])).leading_coefficient() if Fraction(lower[r][k]) else square
+            square = (
+                square + basis[r] * field.polynomial(Fraction(lower[r][k])).leading_coefficient()
+                if Fraction(lower[r][k])
+                else square
+            )
         result.append([str(d), [], [field.json(square)]])
     return result
 
@@ -145,7 +156,9 @@ def _by_programme(session: Session, p: Poly, strict: bool, known: Known) -> list
     monomials: dict[tuple[int, ...], int] = {}
     columns = []
     for candidate in candidates:
-        columns.append({monomials.setdefault(tuple(map(int, e)), len(monomials)): c for e, c in candidate.value.terms()})
+        columns.append(
+            {monomials.setdefault(tuple(map(int, e)), len(monomials)): c for e, c in candidate.value.terms()}
+        )
     target = {monomials.setdefault(tuple(map(int, e)), len(monomials)): c for e, c in p.terms()}
     if not columns or len(monomials) > 20 * MAX_MONOMIALS:
         return None
@@ -203,7 +216,9 @@ def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
     facts = [(one, ())] + [(q, (k,)) for k, q in _facts(session)]
     products = list(facts)
     products += [(a * b, (*x, *y)) for (a, x), (b, y) in combinations_with_replacement(facts[1:], 2)]
-    products += [(a * b * c, (*x, *y, *z)) for (a, x), (b, y), (c, z) in combinations(facts[1:], 3) if len(facts) < 10]
+    products += [
+        (a * b * c, (*x, *y, *z)) for (a, x), (b, y), (c, z) in combinations(facts[1:], 3) if len(facts) < 10
+    ]
     found = []
     degree = p.total_degree()
     for form, value in known.forms:
@@ -238,7 +253,9 @@ def _squares(session: Session, p: Poly) -> list[Poly]:
     """Monomials whose squares may occur, their sums and differences in pairs."""
     field = session.domain.field
     opaque = {k for k, g in enumerate(field.generators) if g.kind not in ("free", "sum")}
-    related = {k for r in field.relations for k in field.occurring(r) if field.occurring(r) & field.occurring(p)}
+    related = {
+        k for r in field.relations for k in field.occurring(r) if field.occurring(r) & field.occurring(p)
+    }
     variables = [field.variable(k) for k in sorted(field.occurring(p) | opaque | related)]
     singles = [field.polynomial(1), *variables]
     pairs = [a + s * b for a, b in combinations(variables, 2) for s in (1, -1)] if len(variables) <= 8 else []
@@ -253,9 +270,9 @@ def _is_sure(session: Session, candidate: Candidate) -> bool:
     return all(kinds) and not candidate.squares
 
 
-
-
-def form_of(session: Session, matrix: Sequence[Exact], x: Sequence[Exact]) -> tuple[dict[str, Any], Poly] | None:
+def form_of(
+    session: Session, matrix: Sequence[Exact], x: Sequence[Exact]
+) -> tuple[dict[str, Any], Poly] | None:
     """xᵀPx for a P (column by column) that is assumed to be definite, as a term's factor and as a
     polynomial.
     """
@@ -272,5 +289,7 @@ def form_of(session: Session, matrix: Sequence[Exact], x: Sequence[Exact]) -> tu
                 total = domain.add_(total, domain.mul_(domain.mul_(x[r], values[r + n * c]), x[c]))
         if set(domain.simplified(total)) <= {()} and all(set(domain.simplified(e)) <= {()} for e in x):
             vector = [domain.field.json(domain.simplified(e).get((), domain.field.polynomial(0))) for e in x]
-            return {"given": k, "vector": vector}, domain.simplified(total).get((), domain.field.polynomial(0))
+            return {"given": k, "vector": vector}, domain.simplified(total).get(
+                (), domain.field.polynomial(0)
+            )
     return None

@@ -74,9 +74,13 @@ def _proved(problem: Problem, found: Attempt) -> Verdict:
     try:
         conditions = needed_conditions(json.dumps(draft))
     except Invalid as error:
-        raise KernelDisagrees(f"{problem.study}/{problem.id}: the kernel does not accept the proof: {error}") from error
+        raise KernelDisagrees(
+            f"{problem.study}/{problem.id}: the kernel does not accept the proof: {error}"
+        ) from error
     except Declined as error:
-        return Verdict(Outcome.UNDECIDED, f"a proof was found that the kernel declines: {error}", found.method)
+        return Verdict(
+            Outcome.UNDECIDED, f"a proof was found that the kernel declines: {error}", found.method
+        )
     made = certificate(problem.statement([{"kind": c.kind, "of": c.of} for c in conditions]), found.proof)
     kept = tuple(Condition(c.kind, c.of) for c in conditions)
     return Verdict(Outcome.PROVED, found.reason, found.method, kept, made)
@@ -100,4 +104,6 @@ def _refuted(problem: Problem, found: Attempt) -> Verdict:
 def _accepted(problem: Problem, made: Mapping[str, Any]) -> None:
     answer = check_text(json.dumps(made))
     if answer.status != "valid":
-        raise KernelDisagrees(f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}")
+        raise KernelDisagrees(
+            f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}"
+        )

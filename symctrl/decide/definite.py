@@ -9,6 +9,7 @@ from fractions import Fraction
 from typing import Any
 
 from symctrl.decide.attempt import Attempt
+from symctrl.decide.affine import by_rows, by_sum, lowest
 from symctrl.decide.combination import terms_of
 from symctrl.decide.definiteness import decide_matrix
 from symctrl.decide.place import evaluation
@@ -36,7 +37,9 @@ def attempt(problem: Problem) -> Attempt:
     found = None if problem.claim.small else _refuted(problem, tree, strict)
     if found is not None:
         return Attempt(witness=found)
-    return Attempt(reason=f"no certificate was found, and none of {TRIES} points refutes it", method="exact definiteness")
+    return Attempt(
+        reason=f"no certificate was found, and none of {TRIES} points refutes it", method="exact definiteness"
+    )
 
 
 def _proof(session: Session, tree: Tree, strict: bool, small: str | None) -> dict[str, Any] | None:
@@ -60,11 +63,21 @@ def _prove(session: Session, outputs: Sequence[Exact], tree: Tree, strict: bool,
         answer = decide_matrix([[n for n in row if n is not None] for row in numbers])
         wanted = ("positive definite",) if strict else ("positive definite", "positive semidefinite")
         return answer.leaf if answer.definiteness in wanted else None
-    given = _assumed(session, rows, strict)
-    return given if given is not None else _by_minors(session, rows, small)
+    for way in (
+        lambda: _assumed(session, rows, strict),
+        lambda: by_rows(session, rows, small),
+        lambda: _by_minors(session, rows, small),
+        lambda: by_sum(session, rows, strict),
+    ):
+        leaf = way()
+        if leaf is not None:
+            return leaf
+    return None
 
 
-def _prove_congruence(session: Session, outputs: Sequence[Exact], tree: Tree, strict: bool, small: str | None) -> Any:
+def _prove_congruence(
+    session: Session, outputs: Sequence[Exact], tree: Tree, strict: bool, small: str | None
+) -> Any:
     """CᵀPC is semidefinite with P, and definite if C is invertible too."""
     factor = [[outputs[k] for k in row] for row in tree["factor"]]
     if strict:
@@ -84,7 +97,9 @@ def _assumed(session: Session, rows: list[list[Exact]], strict: bool) -> Any:
         if assumption.kind not in kinds or assumption.size != n:
             continue
         values = [session.at(of, {"i": "i", "j": "j"}) for of in assumption.of]
-        if all(domain.is_zero(domain.sub_(rows[r][c], values[r + n * c])) for r in range(n) for c in range(n)):
+        if all(
+            domain.is_zero(domain.sub_(rows[r][c], values[r + n * c])) for r in range(n) for c in range(n)
+        ):
             return {"given": k}
     return None
 
@@ -99,7 +114,7 @@ def _by_minors(session: Session, rows: list[list[Exact]], small: str | None) -> 
     for k in range(1, n + 1):
         minor = determinant_of(domain, [row[:k] for row in rows[:k]])
         if small is not None:
-            minor = _lowest(session, minor, small)
+            minor = lowest(session, minor, small)
         terms = terms_of(session, minor, True)
         if terms is None:
             return None
@@ -107,30 +122,24 @@ def _by_minors(session: Session, rows: list[list[Exact]], small: str | None) -> 
     return {"minors": minors}
 
 
-def _lowest(session: Session, value: Exact, small: str) -> Exact:
-    """The coefficient of the lowest power of a gain in a polynomial with the sign of the value."""
-    field = session.domain.field
-    p = field.normal(session.carrier(value))
-    column = field.size - 1 - field.index[small] if small in field.index else None
-    if column is None or p.is_zero():
-        return session.domain.polynomial(p)
-    least = min(int(exponents[column]) for exponents in p.monoms())
-    kept = {e: c for e, c in p.terms() if int(e[column]) == least}
-    lowered = {tuple(0 if v == column else int(x) for v, x in enumerate(e)): c for e, c in kept.items()}
-    return session.domain.polynomial(field.context.from_dict(lowered))
-
-
 def _refuted(problem: Problem, tree: Tree, strict: bool) -> Witness | None:
     tried = 0
     for place in points(problem):
         tried += 1
         try:
-            outputs = evaluation(problem, place, FractionDomain()).outputs(problem.claim.listing, place.binding)
+            outputs = evaluation(problem, place, FractionDomain()).outputs(
+                problem.claim.listing, place.binding
+            )
             x = _against(tree, outputs, strict)
         except (NoExactValue, ZeroDivisionError):
             x = None
         if x is not None:
-            return Witness(place, 0, tuple(x), "x'Ax < 0 for the vector x" if not strict else "x'Ax <= 0 for the vector x")
+            return Witness(
+                place,
+                0,
+                tuple(x),
+                "x'Ax < 0 for the vector x" if not strict else "x'Ax <= 0 for the vector x",
+            )
         if tried >= TRIES or not place.values:
             return None
     return None
@@ -166,7 +175,13 @@ def _numbers(tree: Tree, outputs: Sequence[Fraction]) -> list[list[Fraction]]:
 
 
 def _product(a: list[list[Fraction]], b: list[list[Fraction]]) -> list[list[Fraction]]:
-    return [[sum((x * y for x, y in zip(row, column, strict=True)), Fraction(0)) for column in zip(*b, strict=True)] for row in a]
+    return [
+        [
+            sum((x * y for x, y in zip(row, column, strict=True)), Fraction(0))
+            for column in zip(*b, strict=True)
+        ]
+        for row in a
+    ]
 
 
 def _null_vector(rows: list[list[Fraction]]) -> list[Fraction]:
@@ -174,7 +189,9 @@ def _null_vector(rows: list[list[Fraction]]) -> list[Fraction]:
     import flint
 
     n = len(rows)
-    reduced, rank = flint.fmpq_mat(n, n, [flint.fmpq(e.numerator, e.denominator) for row in rows for e in row]).rref()
+    reduced, rank = flint.fmpq_mat(
+        n, n, [flint.fmpq(e.numerator, e.denominator) for row in rows for e in row]
+    ).rref()
     pivots = [next(c for c in range(n) if reduced[r, c] != 0) for r in range(rank)]
     free = next(c for c in range(n) if c not in pivots)
     x = [Fraction(0)] * n
@@ -199,6 +216,8 @@ def _how(leaf: Any) -> str:
         ("ldl", "A = L D L' exactly"),
         ("dominant", "A - L L' is diagonally dominant"),
         ("minors", "all leading principal minors are positive"),
+        ("rows", "diagonally dominant"),
+        ("sum", "a sum of nonnegative multiples of semidefinite matrices"),
         ("given", "assumed"),
     ):
         if key in leaf:
@@ -207,5 +226,3 @@ def _how(leaf: Any) -> str:
         return "block by block: " + ", ".join(dict.fromkeys(_how(part) for part in leaf["blocks"]))
     inner = leaf.get("kron_identity") or leaf["congruence"]
     return ("of C'PC: " if "congruence" in leaf else "") + _how(inner)
-
-

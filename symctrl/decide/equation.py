@@ -34,7 +34,9 @@ def attempt(problem: Problem) -> Attempt:
         return Attempt(proof=proof, reason="left and right have the same normal form", method=METHOD)
     by_signs = exactly(problem, squeeze.proof)
     if by_signs is not None:
-        return Attempt(proof=by_signs, reason="minus a square of the difference is not negative", method="squeeze")
+        return Attempt(
+            proof=by_signs, reason="minus a square of the difference is not negative", method="squeeze"
+        )
     found = refute(problem)
     if found is not None:
         return Attempt(witness=found, residual=residual, method=METHOD)

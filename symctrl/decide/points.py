@@ -1,7 +1,7 @@
 """Admissible rational points of a problem: all assumptions hold there exactly.
 
 Equations are met by construction (symctrl.decide.solve); symmetric definite matrices are L Lᵀ + I;
-inequalities by trying, with smaller and smaller values. """
+inequalities by trying, with smaller and smaller values."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ class Recipe:
     """How the symbols of a problem are drawn.
 
     ways: to meet the assumed equations. definite: symbols of matrices, with their sizes. root: powers of this
-    degree keep roots rational. """
+    degree keep roots rational.
+    """
 
     problem: Problem
     ways: tuple[Way, ...]
@@ -92,7 +93,10 @@ def _draw(
     made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int, attempt: int
 ) -> dict[str, Fraction]:
     at = neighbours(edges)
-    values = {name: _number(made, star(name) if edges else name, generator, height, attempt) for name in free_names(made.problem, at)}
+    values = {
+        name: _number(made, star(name) if edges else name, generator, height, attempt)
+        for name in free_names(made.problem, at)
+    }
     for node in at or ("",):
         local = lambda name, node=node: name.replace(".*", f".{node}", 1)  # noqa: E731
         for names, size in made.definite:
@@ -103,7 +107,11 @@ def _draw(
                 drawn = _on_sphere(len(step.names), generator, height)
                 values.update({local(n): step.radius * x for n, x in zip(step.names, drawn, strict=True)})
             else:
-                known = {star(n) if edges else n: v for n, v in values.items() if not edges or split(n)[1] in (node, None)}
+                known = {
+                    star(n) if edges else n: v
+                    for n, v in values.items()
+                    if not edges or split(n)[1] in (node, None)
+                }
                 values[local(step.name)] = -evaluated(step.rest, known) / evaluated(step.coefficient, known)
     return values
 
@@ -113,10 +121,16 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
     fail.
     """
     root = made.root if attempt % 2 == 0 else 1
-    value = Fraction(generator.randint(name in made.positive, height + 1), generator.randint(1, height)) ** root
+    value = (
+        Fraction(generator.randint(name in made.positive, height + 1), generator.randint(1, height)) ** root
+    )
     if name not in made.positive and generator.random() < 0.5:
         value = -value
-    if name not in made.positive and made.problem.scalars.get(name) in ("signal", "state", "parameter") and attempt > 4:
+    if (
+        name not in made.positive
+        and made.problem.scalars.get(name) in ("signal", "state", "parameter")
+        and attempt > 4
+    ):
         value /= 2 ** generator.randint(0, attempt // 2)
     return value
 
@@ -152,7 +166,9 @@ def _holds(assumption: Assumption, values: list[Fraction]) -> bool:
 
     n = assumption.size
     answer = decide_matrix([[values[r + n * c] for c in range(n)] for r in range(n)]).definiteness
-    return answer == "positive definite" or (answer != "not positive semidefinite" and "semi" in assumption.kind)
+    return answer == "positive definite" or (
+        answer != "not positive semidefinite" and "semi" in assumption.kind
+    )
 
 
 def _plain_names(problem: Problem, assumption: Assumption) -> list[str | None]:
@@ -178,5 +194,3 @@ def _root_degree(problem: Problem) -> int:
             elif step.op in ("POW", "CONSTPOW") and tape.code[step.args[1]].op == "CONST":
                 degree = lcm(degree, tape.code[step.args[1]].value.denominator)
     return degree if degree <= 12 else 1
-
-

@@ -50,9 +50,7 @@ class Session:
         """The generic nodes that occur: i, and j where a neighbour does; a problem without a fleet has the
         one case i.
         """
-        letters = {
-            split(name)[1] for tape in self.problem.listings.values() for name in tape.inputs
-        } - {None}
+        letters = {split(name)[1] for tape in self.problem.listings.values() for name in tape.inputs} - {None}
         return ["i", "j"] if "j" in letters else ["i"]
 
     def free(self, name: str) -> Exact:
@@ -70,7 +68,9 @@ class Session:
             return self._total(name, level, 0, law)
         if node not in OTHER:
             raise Unsupported(f"{name} is a sum over the neighbours of no node")
-        return _mapped(at.output(meaning.of, {"i": node, "j": OTHER[node]}, level, law), lambda v: self._summed(v, node))
+        return _mapped(
+            at.output(meaning.of, {"i": node, "j": OTHER[node]}, level, law), lambda v: self._summed(v, node)
+        )
 
     def carrier(self, value: Exact) -> Poly:
         """A polynomial with the sign of the value: the numerator times the factors of odd exponent below
@@ -99,7 +99,9 @@ class Session:
 
     def _total(self, name: str, level: int, order: int, law: str | None) -> Any:
         if level > 0:
-            return Pair(self._total(name, level - 1, order, law), self._total(name, level - 1, order + 1, law))
+            return Pair(
+                self._total(name, level - 1, order, law), self._total(name, level - 1, order + 1, law)
+            )
         k = self._generator(name + "'" * order)
         if self.totals.setdefault(k, (name, order, law))[2] != law and order:
             raise Unsupported("the rates of one sum under two laws do not go into one claim")

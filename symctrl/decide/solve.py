@@ -1,7 +1,7 @@
 """Solving the equations that a problem assumes, so that exact points can be drawn: one way after another.
 
 Linear equations are solved for a symbol and put into the rest; what factors is solved factor by factor; what
-is left must be a sphere or circle, which has a rational parametrisation, or linear in a symbol. """
+is left must be a sphere or circle, which has a rational parametrisation, or linear in a symbol."""
 
 from __future__ import annotations
 
@@ -119,7 +119,9 @@ def _without_square(session: Session, q: Poly, sphere: Poly) -> Poly:
     return q
 
 
-def _linear(session: Session, p: Poly, taken: frozenset[int], constant: bool) -> tuple[Linear, int, Poly] | None:
+def _linear(
+    session: Session, p: Poly, taken: frozenset[int], constant: bool
+) -> tuple[Linear, int, Poly] | None:
     """Solve for a symbol that occurs linearly; constant: with a coefficient that is a number."""
     field = session.domain.field
     for k in sorted(field.occurring(p) - taken):
@@ -129,7 +131,9 @@ def _linear(session: Session, p: Poly, taken: frozenset[int], constant: bool) ->
         column = field.size - 1 - k
         if max(int(e[column]) for e in p.monoms()) != 1:
             continue
-        lead = {tuple(0 if v == column else int(x) for v, x in enumerate(e)): c for e, c in p.terms() if e[column]}
+        lead = {
+            tuple(0 if v == column else int(x) for v, x in enumerate(e)): c for e, c in p.terms() if e[column]
+        }
         rest = {tuple(map(int, e)): c for e, c in p.terms() if not e[column]}
         coefficient, remainder = field.context.from_dict(lead), field.context.from_dict(rest)
         if constant and not coefficient.is_constant():
@@ -153,7 +157,11 @@ def _sphere(session: Session, p: Poly, taken: frozenset[int]) -> tuple[Sphere, f
     names = tuple(next(iter(n)) for _, n in reversed(squares))
     square = -constant / squares[0][0]
     radius = rational_root(square, 2) if square > 0 else None
-    return None if radius is None or len(names) < 2 else (Sphere(names, radius), frozenset(session.domain.field.occurring(p)))
+    return (
+        None
+        if radius is None or len(names) < 2
+        else (Sphere(names, radius), frozenset(session.domain.field.occurring(p)))
+    )
 
 
 def _terms(session: Session, p: Poly) -> Terms | None:

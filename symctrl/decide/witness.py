@@ -1,7 +1,7 @@
 """Refutation: an exact point at which a claim fails, found by trying admissible points.
 
 Where a value is rational it is compared exactly; where it is not (a sine, an exponential), by rigorous
-enclosures. """
+enclosures."""
 
 from __future__ import annotations
 
@@ -106,6 +106,10 @@ def _enclosed_failure(problem: Problem, place: Place) -> Witness | None:
         if a is None or b is None:
             continue
         if a[1] < b[0] or (problem.claim.kind == "equal" and b[1] < a[0]):
-            return Witness(place, k, None, f"left is about {float(a[0]):.6g}, right about {float(b[0]):.6g}, and the enclosures do not meet")
+            return Witness(
+                place,
+                k,
+                None,
+                f"left is about {float(a[0]):.6g}, right about {float(b[0]):.6g}, and the enclosures do not meet",
+            )
     return None
-
