@@ -124,7 +124,7 @@ def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
     place = {k: n + 1 for n, k in enumerate(variables)}
     for exponents, c in p.terms():
         at = [place[field.size - 1 - v] for v, e in enumerate(exponents) for _ in range(int(e))]
-        i, j = (at + [0, 0])[:2]
+        i, j = [*at, 0, 0][:2]
         number = Fraction(int(c.p), int(c.q))
         gram[i][j] += number / 2
         gram[j][i] += number / 2

@@ -98,7 +98,10 @@ def _draw(
         for name in free_names(made.problem, at)
     }
     for node in at or ("",):
-        local = lambda name, node=node: name.replace(".*", f".{node}", 1)  # noqa: E731
+
+        def local(name: str, node: str = node) -> str:
+            return name.replace(".*", f".{node}", 1)
+
         for names, size in made.definite:
             for name, entry in zip(names, _definite(size, generator, height), strict=True):
                 values[local(name)] = entry

@@ -84,10 +84,10 @@ def _solved(session: Session, zeros: list[Poly], taken: frozenset[int]) -> Itera
     for k, p in enumerate(zeros):
         sphere = _sphere(session, p, taken)
         if sphere is not None:
-            way, generators = sphere
+            last, generators = sphere
             rest = [_without_square(session, q, p) for n, q in enumerate(zeros) if n != k]
             for others in _solved(session, rest, taken | generators):
-                yield (*others, way)
+                yield (*others, last)
             return
     for k, p in enumerate(zeros):
         solved = _linear(session, p, taken, constant=False)
@@ -95,9 +95,9 @@ def _solved(session: Session, zeros: list[Poly], taken: frozenset[int]) -> Itera
             yield (solved[0],)
             return
         if solved is not None:
-            others = [q for n, q in enumerate(zeros) if n != k]
-            if not any(solved[1] in session.domain.field.occurring(q) for q in others):
-                for more in _solved(session, others, taken | {solved[1]}):
+            rest = [q for n, q in enumerate(zeros) if n != k]
+            if not any(solved[1] in session.domain.field.occurring(q) for q in rest):
+                for more in _solved(session, rest, taken | {solved[1]}):
                     yield (solved[0], *more)
                 return
 

@@ -59,12 +59,10 @@ def refute(problem: Problem, tries: int = TRIES) -> Witness | None:
     """A witness against an equation or a bound, or None. Raises NoPoint where no admissible point is found at
     all.
     """
-    tried = 0
-    for place in points(problem):
+    for tried, place in enumerate(points(problem), start=1):
         found = _fails(problem, place)
         if found is not None:
             return found
-        tried += 1
         if tried >= tries:
             return None
     return None
@@ -110,6 +108,6 @@ def _enclosed_failure(problem: Problem, place: Place) -> Witness | None:
                 place,
                 k,
                 None,
-                f"left is about {float(a[0]):.6g}, right about {float(b[0]):.6g}, and the enclosures do not meet",
+                f"left is about {float(a[0]):.6g}, right about {float(b[0]):.6g}: the enclosures do not meet",
             )
     return None
