@@ -15,6 +15,9 @@ from symctrl.latex import latex
 from symctrl.records import Sum, fingerprint, letters
 
 if TYPE_CHECKING:
+    import networkx as nx
+
+    from symctrl.spectra import LargestEigenvalue
     from symctrl.study import Quaternion, Study
 
 
@@ -152,33 +155,47 @@ class Fleet:
         """The number of neighbours of node i."""
         return self.sum(self.neighbour, 1, at=node)
 
-    # The instance's graph
+    # Graphs and their matrices: of the instance at hand, or of a graph that is given
+
+    @property
+    def graph(self) -> nx.Graph:
+        """The graph of the instance at hand."""
+        from symctrl.graphs import parse  # networkx loads slowly
+
+        return current().graph or parse(self.default)
 
     @property
     def size(self) -> int:
         """The number of nodes of the instance at hand."""
-        return len(self._graph())
+        return len(self.graph)
 
-    def adjacency(self) -> Expr:
-        """The adjacency matrix of the instance's graph, n x n."""
-        return lift(self._rows())
+    def adjacency(self, graph: nx.Graph | None = None) -> Expr:
+        """The adjacency matrix, n x n."""
+        return lift(self._rows(graph))
 
-    def laplacian(self) -> Expr:
-        """The Laplacian matrix (degrees minus adjacency) of the instance's graph, n x n."""
-        rows = self._rows()
-        return lift(
-            [[sum(row) if r == c else -row[c] for c in range(len(row))] for r, row in enumerate(rows)]
-        )
+    def laplacian(self, graph: nx.Graph | None = None) -> Expr:
+        """The Laplacian matrix (degrees minus adjacency), n x n."""
+        return lift(self._laplacian(graph))
 
-    def _rows(self) -> list[list[int]]:
-        graph = self._graph()
-        nodes = list(graph)
-        return [[int(graph.has_edge(a, b)) for b in nodes] for a in nodes]
+    def incidence(self, graph: nx.Graph | None = None) -> Expr:
+        """An incidence matrix, n x edges: a column has 1 at one end of its edge and -1 at the other."""
+        chosen = self.graph if graph is None else graph
+        return lift([[(a == node) - (b == node) for a, b in chosen.edges] for node in chosen])
 
-    def _graph(self) -> Any:
-        from symctrl.graphs import parse
+    def largest_eigenvalue(self, graph: nx.Graph | None = None) -> LargestEigenvalue:
+        """Exact rational bounds of the largest eigenvalue of the Laplacian."""
+        from symctrl.spectra import largest_eigenvalue  # numpy loads slowly
 
-        return current().graph or parse(self.default)
+        return largest_eigenvalue(self._laplacian(graph))
+
+    def _laplacian(self, graph: nx.Graph | None) -> list[list[int]]:
+        rows = self._rows(graph)
+        return [[sum(row) if r == c else -row[c] for c in range(len(row))] for r, row in enumerate(rows)]
+
+    def _rows(self, graph: nx.Graph | None) -> list[list[int]]:
+        chosen = self.graph if graph is None else graph
+        nodes = list(chosen)
+        return [[int(chosen.has_edge(a, b)) for b in nodes] for a in nodes]
 
 
 def _bracketed(body: Expr) -> str:

@@ -186,9 +186,9 @@ def with_motion(problem: Problem, name: str, size: Sequence[str], listing: str) 
 
 def _is_about(problem: Problem, assumption: Assumption, read: Collection[str]) -> bool:
     """Does a state or signal of the assumption occur, or any symbol of one that is about parameters only?"""
-    if assumption.about == PROVED:
-        return True
     symbols = {star(n) for of in assumption.of for n in problem.listings[of[0]].inputs}
+    if assumption.about == PROVED:
+        return bool(symbols & set(read))
     kinds = {problem.scalars.get(n, "name") for n in symbols}
     occurring = symbols & set(read)
     if kinds == {"parameter"}:

@@ -27,6 +27,8 @@ def _tree(matrix: Expr, parts: list[Expr]) -> Tree:
         return {"kron_identity": _tree(matrix.args[0], parts), "size": matrix.args[1].shape[0]}
     if matrix.op == "diagonal" and all(part.shape[0] == part.shape[1] for part in matrix.args):
         return {"blocks": [_tree(part, parts) for part in matrix.args]}
+    if matrix.op == "scale" and _opened(matrix.args[1]).op == "eye":
+        return {"kron_identity": _tree(matrix.args[0], parts), "size": matrix.args[1].shape[0]}
     found = _congruence(matrix)
     if found is not None:
         factor, middle = found

@@ -59,7 +59,9 @@ def lowest(session: Session, value: Exact, small: str) -> Exact:
     column = field.size - 1 - field.index[small]
     least = min(int(exponents[column]) for exponents in p.monoms())
     kept = {
-        tuple(0 if v == column else int(x) for v, x in enumerate(e)): c for e, c in p.terms() if int(e[column]) == least
+        tuple(0 if v == column else int(x) for v, x in enumerate(e)): c
+        for e, c in p.terms()
+        if int(e[column]) == least
     }
     return session.domain.polynomial(field.context.from_dict(kept))
 
@@ -100,7 +102,8 @@ def _substituted(session: Session, parts: dict[Monomial, Rows]) -> Iterator[list
                 if m != pivot:
                     share = terms.get(m, Fraction(0)) / factor
                     moved = [
-                        [x - share * y for x, y in zip(a, b, strict=True)] for a, b in zip(rows, parts[pivot], strict=True)
+                        [x - share * y for x, y in zip(a, b, strict=True)]
+                        for a, b in zip(rows, parts[pivot], strict=True)
                     ]
                     changed.append((context.from_dict({m: 1}), moved))
             yield changed

@@ -172,7 +172,9 @@ def _by_programme(session: Session, p: Poly, strict: bool, known: Known) -> list
     sure = [_is_sure(session, candidate) for candidate in candidates]
     cost = np.array([-1.0 if strict and s else 1e-3 for s in sure])
     bounds = [(0, 1e6)] * len(columns)
-    answer = linprog(cost, A_eq=matrix, b_eq=right, bounds=bounds, method="highs")
+    widths = np.maximum(np.abs(matrix).max(axis=0), 1e-300)
+    height = max(float(np.abs(right).max()), 1e-300)
+    answer = linprog(cost, A_eq=matrix / widths, b_eq=right / height, bounds=bounds, method="highs")
     if answer.status != 0:
         return None
     chosen = [n for n in range(len(columns)) if answer.x[n] > TINY]
@@ -226,7 +228,8 @@ def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
             found.append(Candidate(field.normal(product * value), (*given, form), ()))
     for product, given in products:
         for square in [*known.squares, *_squares(session, p)]:
-            if product.total_degree() + 2 * square.total_degree() > degree + 2:
+            advised = any(square is known_square for known_square in known.squares)
+            if not advised and product.total_degree() + 2 * square.total_degree() > degree + 2:
                 continue
             value = field.normal(product * square * square)
             squares = () if square == one else (square,)

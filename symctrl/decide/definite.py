@@ -123,9 +123,7 @@ def _by_minors(session: Session, rows: list[list[Exact]], small: str | None) -> 
 
 
 def _refuted(problem: Problem, tree: Tree, strict: bool) -> Witness | None:
-    tried = 0
-    for place in points(problem):
-        tried += 1
+    for tried, place in enumerate(points(problem), start=1):
         try:
             outputs = evaluation(problem, place, FractionDomain()).outputs(
                 problem.claim.listing, place.binding
