@@ -6,6 +6,7 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from symctrl.certify import bundle
@@ -13,6 +14,7 @@ from symctrl.collect import Collector
 from symctrl.decide.decision import decide
 from symctrl.kernel.check import check_text
 from symctrl.problem import Problem
+from symctrl.reach import closings
 from symctrl.statements import AtValues, Equivalent, Implies, Statement, SufficientlySmall
 from symctrl.verdict import Condition, Outcome, Verdict
 
@@ -86,11 +88,14 @@ def verdict_of(found: Sequence[Part], store: Store | None) -> Verdict:
 def remembered(
     problem: Problem, store: Store | None, decider: Callable[[Problem], Verdict] = decide
 ) -> Verdict:
-    """The verdict, from the store if it is there and the kernel accepts its certificate again."""
+    """The verdict, from the store if it is there and the kernel accepts its certificate again.
+
+    What was undecided has nothing that could be checked, and nothing that anyone could gain by altering it.
+    """
     kept = store.get(problem.sha256) if store is not None else None
-    if kept is not None and kept["certificate"] is not None:
+    if kept is not None:
         known = _read(kept)
-        if check_text(json.dumps(known.certificate)).status == "valid" and _same_statement(problem, known):
+        if known.outcome is Outcome.UNDECIDED or _holds_still(problem, known):
             return known
     verdict = decider(problem)
     if store is not None:
@@ -110,12 +115,20 @@ def _problem(
     return Collector(study, values).problem(claim, id_, hypotheses, small, using)
 
 
-def _same_statement(problem: Problem, known: Verdict) -> bool:
-    """Is the certificate about this very problem?"""
-    assert known.certificate is not None
-    stated = dict(known.certificate["statement"])
-    stated["conditions"] = []
-    return bool(stated == json.loads(json.dumps(problem.statement())))
+def _holds_still(problem: Problem, known: Verdict) -> bool:
+    """Does the kernel accept the certificate, and does it say what the verdict says of this very problem?
+
+    A proof may be one of the problem with definitions closed, a witness may not.
+    """
+    if known.certificate is None or check_text(json.dumps(known.certificate)).status != "valid":
+        return False
+    by_witness = known.certificate["proof"]["kind"] == "witness"
+    if known.outcome is not (Outcome.REFUTED if by_witness else Outcome.PROVED):
+        return False
+    conditions = [{"kind": c.kind, "of": c.of} for c in known.conditions]
+    candidates = [problem] if by_witness else chain([problem], closings(problem))
+    stated = known.certificate["statement"]
+    return any(stated == json.loads(json.dumps(one.statement(conditions))) for one in candidates)
 
 
 def _with_reason(verdict: Verdict, reason: str) -> Verdict:
