@@ -339,9 +339,13 @@ class Study:
         if base not in known:
             near = get_close_matches(base, known, 3, 0.4) or known
             raise StudyError(f"{self.name} has no parameter {key}; it has {', '.join(near)}")
+        expr = self.symbols[base].expr
+        entries = list(dict.fromkeys(component_names(base, expr.shape, expr.args[2])))
+        if key not in entries:
+            raise StudyError(f"{self.name} has no parameter {key}; {base} has {', '.join(entries)}")
         try:
-            value = Fraction(text)
-        except (ValueError, ZeroDivisionError):
+            value: Fraction = lift(text).args[0]
+        except ValueError:
             raise StudyError(f"{key}={text}: not an exact number; write 0.4, 2/5 or 1e-3") from None
         if self.symbols[base].gain and value <= 0:
             raise StudyError(f"{key}={text}: the gain {key} must be positive")
