@@ -40,3 +40,24 @@ def within(instance: Instance) -> Iterator[None]:
         yield
     finally:
         _current.reset(token)
+
+
+_graph_used: ContextVar[list[bool] | None] = ContextVar("graph_used", default=None)
+
+
+def graph_is_used() -> None:
+    """What is being evaluated speaks of the instance's graph."""
+    marks = _graph_used.get()
+    if marks is not None:
+        marks.append(True)
+
+
+@contextmanager
+def noticing_graph() -> Iterator[list[bool]]:
+    """A list that is not empty once something inside has spoken of the instance's graph."""
+    marks: list[bool] = []
+    token = _graph_used.set(marks)
+    try:
+        yield marks
+    finally:
+        _graph_used.reset(token)

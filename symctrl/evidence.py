@@ -7,10 +7,10 @@ written is missing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -81,6 +81,38 @@ def twins(study: Study, claim: Equal, id_: str) -> Twins:
     if outputs[:half] == outputs[half:]:
         still_true.append("both sides are the same graph: nothing is claimed")
     return Twins(len(addends) + 1, tuple(still_true))
+
+
+def reversed_twins(problems: Sequence[Problem]) -> Twins | None:
+    """One twin for each bound or definiteness: with the sign reversed it must fail somewhere."""
+    signed = [p for p in problems if p.claim.kind not in ("equal", "conforms")]
+    if not signed:
+        return None
+    still_true = [f"reversed: {p.text}" for p in signed if not _reversed_fails(p)]
+    return Twins(len(signed), tuple(dict.fromkeys(still_true)))
+
+
+def _reversed_fails(problem: Problem) -> bool:
+    """Is some entry (of a matrix: on the diagonal of a block) positive at an admissible point?"""
+    at = _diagonal(problem.claim.matrix) if problem.claim.matrix is not None else None
+    try:
+        for place in islice(points(problem), SAMPLES):
+            outputs = evaluation(problem, place, FloatDomain()).outputs(problem.claim.listing, place.binding)
+            chosen = outputs if at is None else [outputs[k] for k in at]
+            if any(float(entry) > 0 for entry in chosen):
+                return True
+    except (NoPoint, Unsupported, ZeroDivisionError):
+        return False
+    return False
+
+
+def _diagonal(tree: Mapping[str, Any]) -> list[int]:
+    """Positions of the diagonal entries of a tree's leaves."""
+    if "entries" in tree:
+        return [row[r] for r, row in enumerate(tree["entries"])]
+    if "blocks" in tree:
+        return [k for block in tree["blocks"] for k in _diagonal(block)]
+    return _diagonal(tree["congruence"] if "congruence" in tree else tree["kron_identity"])
 
 
 def _vanishing(study: Study, addends: Sequence[Expr], id_: str) -> list[bool]:

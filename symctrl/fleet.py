@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from symctrl.context import current
+from symctrl.context import current, graph_is_used
 from symctrl.expr import Expr, deferred, lift, symbol
 from symctrl.latex import latex
 from symctrl.records import Sum, fingerprint, letters
@@ -162,6 +162,7 @@ class Fleet:
         """The graph of the instance at hand."""
         from symctrl.graphs import parse  # networkx loads slowly
 
+        graph_is_used()
         return current().graph or parse(self.default)
 
     @property

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from symctrl.expr import Expr, deferred, walk
 from symctrl.latex import latex
+from symctrl.text import text
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,10 @@ class Rate:
     body: Expr
     law: str | None
 
+    @property
+    def text(self) -> str:
+        return f"rate({text(self.body)})"
+
 
 @dataclass(frozen=True)
 class Sum:
@@ -38,6 +43,10 @@ class Sum:
     latex: str
     body: Expr
     total: bool
+
+    @property
+    def text(self) -> str:
+        return f"sum_{'i' if self.total else 'j'}({text(self.body)})"
 
 
 @dataclass(frozen=True)

@@ -72,6 +72,7 @@ class Row:
     witness: Mapping[str, Any] | None = None
     certificate: Mapping[str, Any] | None = None
     numeric: Numeric | None = None
+    residual: str | None = None
     settled: bool = True
     finding: str | None = None
     seconds: float = 0.0

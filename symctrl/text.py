@@ -30,7 +30,7 @@ class PlainText(Notation):
         return Piece(name)
 
     def deferred(self, record: Any) -> Piece:
-        return Piece(record.label)
+        return Piece(getattr(record, "text", record.label))
 
     def literal(self, value: Fraction, text: str) -> Piece:
         return Piece(

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from symctrl import evidence, standing
-from symctrl.certify import digest
-from symctrl.collect import UndefinedLetter
-from symctrl.context import Instance, within
-from symctrl.decide.claims import Part, parts, verdict_of
-from symctrl.expr import Nonconforming
+from symctrl.context import within
+from symctrl.decide.claims import Part
+from symctrl.deciding import Decided, decide, is_named, with_corrections
+from symctrl.dimensions import units_of
+from symctrl.inputs import inputs_digest
 from symctrl.latex import latex
 from symctrl.problem import PROVED
 from symctrl.rows import Given, Report, Row
@@ -32,18 +32,6 @@ class ToolError(RuntimeError):
     """Two ways of evaluating the same claim disagree: an error of symctrl, not of the study."""
 
 
-@dataclass(frozen=True)
-class Decided:
-    """A claim with its problems and verdict. claim: what the function returned, or None where it does not
-    conform.
-    """
-
-    claim: Any
-    parts: tuple[Part, ...]
-    verdict: Verdict
-    using: tuple[Any, ...] = ()
-
-
 def verify(
     study: Study,
     only: Collection[str] | None = None,
@@ -60,11 +48,10 @@ def verify(
                 progress(id_)
                 rows.append(_row(study, entry, id_, store))
     rows = standing.settle(study, rows, complete=only is None)
+    standing.refuse_needless(study, rows)
     used = {row.equation for row in rows}
     missing = tuple(n for n in study.numbers if n not in used and not any(n in e.split(", ") for e in used))
-    inputs = digest(
-        [study.name, study.graph, {k: str(v) for k, v in study.instance.values.items()}, sorted(wanted)]
-    )
+    inputs = inputs_digest(study, wanted)
     return Report(
         study.name, study.source, study.graph, tuple(rows), missing, inputs, time.perf_counter() - began
     )
@@ -89,70 +76,30 @@ def _row(study: Study, entry: Entry, id_: str, store: Store | None) -> Row:
     began = time.perf_counter()
     reading = id_.partition("[")[2].rstrip("]") or None
     variant = "printed" if entry.form in ("printed", "definition", "law") else "corrected"
-    with within(replace(study.instance, variant=variant)):
-        decided = _decide(study, entry, reading, store)
-        if entry.form == "printed" and decided.verdict.outcome is not Outcome.PROVED:
-            decided = _again_with_corrections(study, entry, reading, store, decided)
-        row = _made(study, entry, id_, reading, decided)
-        if decided.verdict.outcome is Outcome.PROVED:
+    decided = decide(study, entry, reading, store, variant)
+    if entry.form == "printed" and decided.verdict.outcome is not Outcome.PROVED:
+        decided = with_corrections(study, entry, reading, store, decided)
+    row = _with_conditions(study, entry, id_, decided, store, variant)
+    if entry.form == "printed" and any(c.by is None for c in row.conditions):
+        corrected = decide(study, entry, reading, store, "corrected")
+        again = _with_conditions(study, entry, id_, corrected, store, "corrected")
+        if again.verdict == "proved" and all(c.by is not None for c in again.conditions):
+            decided, row = corrected, replace(again, reason=f"{again.reason}, with the corrected definitions")
+    if decided.verdict.outcome is Outcome.PROVED:
+        with within(replace(study.instance, variant=variant)):
             row = _with_evidence(study, decided, row)
-        row = standing.with_conditions(study, decided.claim, decided.using, decided.verdict, row)
     return replace(row, seconds=round(time.perf_counter() - began, 3))
 
 
-def _decide(study: Study, entry: Entry, reading: str | None, store: Store | None) -> Decided:
-    try:
-        claim = entry.call(study, reading)
-        if entry.form in ("definition", "law") or (entry.corrects and _is_named(study, entry.corrects)):
-            claim = Conforms(_body(study, entry, claim))
-        using = [used.call(study) for used in entry.using]
-        found = tuple(parts(study, claim, entry.id, using=using))
-    except (Nonconforming, UndefinedLetter) as error:
-        return Decided(None, (), Verdict(Outcome.ILL_FORMED, str(error)))
-    return Decided(claim, found, verdict_of(found, store), tuple(using))
+def _with_conditions(
+    study: Study, entry: Entry, id_: str, decided: Decided, store: Store | None, variant: str
+) -> Row:
+    row = _made(study, entry, id_, decided)
+    with within(replace(study.instance, variant=variant)):
+        return standing.with_conditions(study, decided.claim, decided.using, decided.verdict, row, store)
 
 
-def _body(study: Study, entry: Entry, made: Any) -> Any:
-    from symctrl.expr import lift
-
-    law = study.laws.get(entry.corrects or entry.id)
-    return law.body() if law is not None else lift(made)
-
-
-def _is_named(study: Study, id_: str) -> bool:
-    return study.entries[id_].form in ("definition", "law")
-
-
-def _again_with_corrections(
-    study: Study, entry: Entry, reading: str | None, store: Store | None, printed: Decided
-) -> Decided:
-    """A printed claim that fails, decided with the corrected definitions: is it wrong by itself?"""
-    corrected = Instance("corrected", study.instance.graph, study.instance.values)
-    with within(corrected):
-        again = _decide(study, entry, reading, store)
-    if _same(printed, again):
-        return printed
-    standing_in = printed.verdict.outcome is Outcome.ILL_FORMED and again.claim is not None
-    if standing_in and again.verdict.outcome is not Outcome.ILL_FORMED:
-        reason = (
-            f"{printed.verdict.reason}; with the corrected definition in its place: {again.verdict.reason}"
-        )
-        return replace(again, verdict=replace(again.verdict, reason=reason))
-    how = (
-        "it holds with the corrected definitions: it is wrong only through what it uses"
-        if again.verdict.outcome is Outcome.PROVED
-        else "it fails with the corrected definitions too"
-    )
-    return replace(printed, verdict=replace(printed.verdict, reason=f"{printed.verdict.reason}; {how}"))
-
-
-def _same(a: Decided, b: Decided) -> bool:
-    return [p.problem.sha256 for p in a.parts] == [p.problem.sha256 for p in b.parts] and (
-        a.verdict.reason == b.verdict.reason
-    )
-
-
-def _made(study: Study, entry: Entry, id_: str, reading: str | None, decided: Decided) -> Row:
+def _made(study: Study, entry: Entry, id_: str, decided: Decided) -> Row:
     verdict = decided.verdict
     return Row(
         id=id_,
@@ -167,13 +114,14 @@ def _made(study: Study, entry: Entry, id_: str, reading: str | None, decided: De
         conditional=False,
         reason=verdict.reason,
         method=verdict.method,
-        reading=reading or entry.reading,
+        reading=id_.partition("[")[2].rstrip("]") or entry.reading,
         given=_given(decided.parts),
         holds_for=_holds_for(study, decided),
         rests_on=_rests_on(study, entry, decided.parts),
+        units=units_of(study, decided.parts[0].problem) if decided.parts else None,
         witness=verdict.witness,
         certificate=verdict.certificate,
-        units=None,
+        residual=verdict.residual,
         finding=_finding(entry, verdict),
     )
 
@@ -203,16 +151,17 @@ def _given(found: tuple[Part, ...]) -> tuple[Given, ...]:
 
 
 def _holds_for(study: Study, decided: Decided) -> str:
-    """All graphs and sizes, or the instance's graph where the claim was made of it."""
-    used = any("uses the graph" in str(part.problem.text) for part in decided.parts)
-    return f"{study.graph}" if used else "all"
+    """All graphs and values, or the instance's graph and the study's values where the claim is about these."""
+    about = [str(study.graph)] if decided.of_graph else []
+    about += ["the values of the study"] if decided.at_values else []
+    return ", ".join(about) or "all"
 
 
 def _rests_on(study: Study, entry: Entry, found: tuple[Part, ...]) -> tuple[str, ...]:
     """The definitions and laws that the claim reaches, and the statements that it uses."""
     reached = {name.removeprefix("law ") for part in found for name in part.problem.listings}
     own = {entry.id, entry.corrects}
-    named = [id_ for id_ in study.entries if id_ in reached - own and _is_named(study, id_)]
+    named = [id_ for id_ in study.entries if id_ in reached - own and is_named(study, id_)]
     return (*named, *(used.id for used in entry.using))
 
 
@@ -230,11 +179,9 @@ def _finding(entry: Entry, verdict: Verdict) -> str | None:
 
 
 def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
-    """Twins and floating-point residuals of an equation. Raises ToolError where these contradict the
-    proof.
-    """
+    """Twins, and floating-point residuals of an equation. Raises ToolError where these contradict the proof."""
     if not isinstance(decided.claim, Equal) or len(decided.parts) != 1:
-        return row
+        return replace(row, twins=evidence.reversed_twins([part.problem for part in decided.parts]))
     found = evidence.numeric(decided.parts[0].problem)
     if found is not None and found.max_residual > evidence.TOLERANCE:
         raise ToolError(

@@ -45,7 +45,14 @@ def Pi_definite_for_small_beta():
     return sufficiently_small(beta, positive_definite(Pi_of(fleet.graph)))
 
 
-@study.printed("section 3", readings=GRAPHS)
+@study.printed(
+    "section 3",
+    readings=GRAPHS,
+    finding={
+        "refuted": "With the paper's gains the proof does not cover this formation: beta lambda_max(L) exceeds "
+        "K_o, and K_o must grow or beta shrink before these gains are used on it."
+    },
+)
 def Pi_definite_at_the_gains(graph):
     """With the paper's gains Pi is positive definite."""
     return at_values(positive_definite(Pi_of(graph)))

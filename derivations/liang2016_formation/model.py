@@ -167,11 +167,16 @@ def B_with_rate_of_Q(i):
     return coriolis(i, Q(i).T @ J[i] @ study.rate(Q(i)))
 
 
+def coriolis_needed(i):
+    """The coefficient of dq that follows from (1) and (2)."""
+    return Q(i).T @ J[i] @ study.rate(Q(i)) - Q(i).T @ skew(J[i] @ Q(i) @ dq(i)) @ Q(i)
+
+
 @study.corrected(
     B, why="The second term is the rate of Q, not of J, and its sign is plus: B = Q'J dQ/dt - Q'(J Q dq)^x Q."
 )
 def B_corrected(i):
-    return Q(i).T @ J[i] @ study.rate(Q(i)) - Q(i).T @ skew(J[i] @ Q(i) @ dq(i)) @ Q(i)
+    return coriolis_needed(i)
 
 
 @study.printed("(3)", readings={"the dot on J": B, "the dot on Q": B_with_rate_of_Q})
@@ -194,15 +199,15 @@ def A_semidefinite(i):
     return positive_semidefinite(A(i))
 
 
-@study.printed("after (3)")
-def B_is_skew(i):
+@study.printed("after (3)", readings={"B as printed": B, "B as (3) needs it": coriolis_needed})
+def B_is_skew(i, coefficient):
     """The matrix B is skew-symmetric."""
-    return skew_symmetric(B(i))
+    return skew_symmetric(coefficient(i))
 
 
-@study.corrected(B_is_skew, why="What is skew-symmetric is dA/dt - 2 B, with the corrected B.")
+@study.claimed("after (3)")
 def rate_of_A_minus_2B_is_skew(i):
-    """The matrix dA/dt - 2 B is skew-symmetric."""
+    """What is skew-symmetric with the B that (3) needs is dA/dt - 2 B."""
     return skew_symmetric(study.rate(A(i)) - 2 * B(i))
 
 

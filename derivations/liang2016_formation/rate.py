@@ -3,9 +3,9 @@
 from derivations.liang2016_formation.control import V, V_i, control, e, s, stiffness, tau
 from derivations.liang2016_formation.model import A, Q, dq
 from derivations.liang2016_formation.symbols import K_o, K_q, K_v, beta, fleet, q, study, u_d
-from symctrl import equal
+from symctrl import conforms, equal
 from symctrl.statements import positive
-from symctrl.vectors import absolute, det, diagonal, eye, inverse, sgn, stack
+from symctrl.vectors import absolute, det, diagonal, eye, inverse, kron, sgn, stack
 
 i, j = fleet.node, fleet.neighbour
 K_p = study.undefined("K_p")
@@ -153,10 +153,45 @@ def M_corrected():
     return K_o * eye(fleet.size) - beta * fleet.laplacian()
 
 
+def all_of_zeta():
+    """A vector with the 6n components that zeta has for n craft."""
+    return stack(*[zeta(i)] * fleet.size)
+
+
 @study.printed("(9), (10)")
-def Pi_conforms():
+def Pi_acts_on_zeta():
     """Pi, with the n x n matrix M and the 3n x 3n matrix N, acts on zeta, which has 6n components."""
-    return equal(Pi() @ stack(*[zeta(i)[0]] * (6 * fleet.size)), 0 * stack(*[zeta(i)[0]] * (6 * fleet.size)))
+    return conforms(Pi() @ all_of_zeta())
+
+
+@study.corrected(Pi_acts_on_zeta, why="The rates of q_i are vectors, so that M (x) I_3 takes the place of M.")
+def Pi_for_vectors_acts_on_zeta():
+    """Pi with M (x) I_3 acts on zeta, which has 6n components."""
+    whole = diagonal(kron(M(), eye(3)), beta * K_q * eye(3 * fleet.size))
+    return conforms(whole @ all_of_zeta())
+
+
+@study.printed(
+    "after (10)",
+    finding={
+        "refuted": "Who checks K_o > beta, as the printed M suggests, checks too little: what counts is "
+        "K_o > beta lambda_max(L), which grows with the number of neighbours."
+    },
+)
+def M_is_that_of_the_rate():
+    """M is the matrix of the rate of V in the rates dq_i, which (6) makes K_o I - beta L."""
+    return equal(M(), K_o * eye(fleet.size) - beta * fleet.laplacian())
+
+
+@study.corrected(M_is_that_of_the_rate, why="M has K_o - m_i beta on the diagonal and beta beside it.")
+def M_corrected_is_that_of_the_rate():
+    """M is the matrix of the rate of V in the rates dq_i: K_o I - beta times degrees, and beta beside it."""
+    degrees = diagonal(*[row @ stack(*[1] * fleet.size) for row in _rows(fleet.adjacency())])
+    return equal(M(), K_o * eye(fleet.size) - beta * degrees + beta * fleet.adjacency())
+
+
+def _rows(matrix):
+    return [matrix[k, :] for k in range(matrix.shape[0])]
 
 
 def quadratic_form(i, own, coupling):

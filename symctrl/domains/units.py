@@ -143,6 +143,30 @@ class UnitsDomain(Domain[Measured]):
 
         return evaluate
 
+    def add_(self, a: Measured, b: Measured) -> Measured:
+        return self.operation("ADD")(a, b)
+
+    def sub_(self, a: Measured, b: Measured) -> Measured:
+        return self.operation("SUB")(a, b)
+
+    def mul_(self, a: Measured, b: Measured) -> Measured:
+        return self.operation("MUL")(a, b)
+
+    def div_(self, a: Measured, b: Measured) -> Measured:
+        return self.operation("DIV")(a, b)
+
+    def inv_(self, a: Measured) -> Measured:
+        return self.operation("INV")(a)
+
+    def neg_(self, a: Measured) -> Measured:
+        return self.operation("NEG")(a)
+
+    def sq_(self, a: Measured) -> Measured:
+        return self.operation("SQ")(a)
+
+    def twice_(self, a: Measured) -> Measured:
+        return self.operation("TWICE")(a)
+
     def _rule(self, op: str) -> Callable[..., Unit | None]:
         """The unit of the result of `op` from its arguments."""
         special: dict[str, Callable[..., Unit | None]] = {
