@@ -41,7 +41,7 @@ def units_of(study: Study, problem: Problem) -> Units | None:
         half = len(outputs) // 2
         for left, right in zip(outputs[:half], outputs[half:], strict=True):
             domain.same("equation", left, right)
-    gains = {name for name in problem.scalars if _unit(study, name) is None}
+    gains = {name for name in problem.scalars if _is_open(study, name)}
     inferred = {name: domain.solved[name].text for name in sorted(gains) if name in domain.found}
     return Units(domain.mismatch is None, domain.mismatch, inferred)
 
@@ -49,6 +49,13 @@ def units_of(study: Study, problem: Problem) -> Units | None:
 def _symbol(study: Study, domain: UnitsDomain, name: str) -> Measured:
     general = star(name)
     return domain.symbol(general, _unit(study, general))
+
+
+def _is_open(study: Study, name: str) -> bool:
+    """Is it a symbol of the study that has no unit of its own?"""
+    base, node, _ = split(name)
+    declared = study.symbols.get(base if node is None else f"{base}.*")
+    return declared is not None and declared.unit is None
 
 
 def _unit(study: Study, name: str) -> str | None:

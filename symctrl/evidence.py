@@ -16,7 +16,7 @@ import numpy as np
 
 from symctrl.collect import Collector
 from symctrl.decide.identity import vanishes
-from symctrl.decide.place import evaluation
+from symctrl.decide.place import Place, evaluation
 from symctrl.decide.points import points
 from symctrl.decide.session import Session, exactly
 from symctrl.decide.solve import NoPoint
@@ -24,8 +24,9 @@ from symctrl.domains.domain import Unsupported
 from symctrl.domains.floating import FloatDomain
 from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.domains.opaque import NowhereDefined
+from symctrl.evaluate import Environment
 from symctrl.expr import Expr, terms
-from symctrl.problem import Problem
+from symctrl.problem import Problem, split
 from symctrl.records import Rate
 from symctrl.rows import Numeric, Twins
 from symctrl.statements import Conforms, Equal
@@ -36,31 +37,70 @@ if TYPE_CHECKING:
 
 SAMPLES = 12
 POINTS = 4
+RATES = 2
+STEP = 1e-4
+ROUND_OFF = 1e-9
+DIFFERENCE_TOLERANCE = 1e-4
 TOLERANCE = 1e-9
 
 
 def numeric(problem: Problem) -> Numeric | None:
-    """The largest relative residual of an equation over random admissible points; None where no point is
-    found.
+    """The largest relative residual of an equation over random admissible points; None where no point is found.
+
+    Beside left minus right, each rate is compared with a central difference along the motion.
     """
     worst, count = 0.0, 0
     try:
-        for place in points(problem, seed=2):
-            domain = FloatDomain()
-            outputs = evaluation(problem, place, domain).outputs(problem.claim.listing, place.binding)
-            half = len(outputs) // 2
-            difference = max(
-                abs(float(a) - float(b)) for a, b in zip(outputs[:half], outputs[half:], strict=True)
-            )
-            scale = float(np.max(domain.largest))
-            if np.isfinite(difference):
-                worst = max(worst, difference / scale if scale else difference)
+        for place in islice(points(problem, seed=2), SAMPLES):
+            residual = max(_residual(problem, place), _rate_residual(problem, place) if count < RATES else 0.0)
+            if np.isfinite(residual):
+                worst = max(worst, residual)
                 count += 1
-            if count >= SAMPLES:
-                break
     except (NoPoint, Unsupported, ValueError):
         return Numeric(count, worst) if count else None
     return Numeric(count, worst)
+
+
+def _residual(problem: Problem, place: Place) -> float:
+    domain = FloatDomain()
+    outputs = evaluation(problem, place, domain).outputs(problem.claim.listing, place.binding)
+    half = len(outputs) // 2
+    difference = max(abs(float(a) - float(b)) for a, b in zip(outputs[:half], outputs[half:], strict=True))
+    scale = float(np.max(domain.largest))
+    return difference / scale if scale else difference
+
+
+def _rate_residual(problem: Problem, place: Place) -> float:
+    """How far the rates are from central differences, less the tolerance that these have: 0 where they agree."""
+    worst = 0.0
+    for name, meaning in problem.names.items():
+        if meaning.is_ != "rate" or meaning.of is None:
+            continue
+        here = FloatDomain()
+        at = evaluation(problem, place, here)
+        binding = {"i": place.binding["i"]} if place.edges else {}
+        rate = float(at.name(name.replace(".*", f".{binding.get('i', '')}", 1), 0, None))
+        ends = [
+            float(evaluation(problem, moved, FloatDomain()).output(meaning.of, binding, 0, meaning.law))
+            for moved in (_moved(problem, place, at, meaning.law, side * STEP) for side in (1, -1))
+        ]
+        scale = max(abs(rate), abs(ends[0]), float(np.max(here.largest)) * ROUND_OFF, 1.0)
+        error = abs(rate - (ends[0] - ends[1]) / (2 * STEP)) / scale
+        worst = max(worst, error if error > DIFFERENCE_TOLERANCE else 0.0)
+    return worst
+
+
+def _moved(problem: Problem, place: Place, at: Environment, law: str | None, step: float) -> Place:
+    """The place with every state moved along its rate."""
+    values = dict(place.values)
+    for name, value in place.values.items():
+        base, node, index = split(name)
+        of = problem.motion.get(f"{base}.*{index}" if place.edges and node else name)
+        if of is not None:
+            rate = float(at.output(of, {"i": node} if node else {}, 0, law))
+            if np.isfinite(rate):
+                values[name] = value + Fraction(step * rate)
+    return Place(values, place.edges)
 
 
 def twins(study: Study, claim: Equal, id_: str) -> Twins:

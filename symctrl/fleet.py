@@ -7,18 +7,28 @@ graph. Matrices of a graph (Laplacian, adjacency) are those of the instance at h
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 from symctrl.context import current, graph_is_used
 from symctrl.expr import Expr, deferred, lift, symbol
 from symctrl.latex import latex
+from symctrl.quaternion import Quaternion
 from symctrl.records import Sum, fingerprint, letters
 
 if TYPE_CHECKING:
     import networkx as nx
 
     from symctrl.spectra import LargestEigenvalue
-    from symctrl.study import Quaternion, Study
+
+
+class Declares(Protocol):
+    """What a fleet needs of its study: where symbols, assumptions and motions are entered."""
+
+    def declare(self, expr: Expr, kind: str, unit: str | None) -> Expr: ...
+    def assume_definite(self, M: Expr) -> None: ...
+    def assume_unit(self, q: Quaternion) -> None: ...
+    def bounded(self, signal: Expr, bound: Expr) -> None: ...
+    def motion(self, x: Expr, xdot: Any) -> None: ...
 
 
 @dataclass(frozen=True)
@@ -54,15 +64,13 @@ class FleetQuaternion:
     scalar: FleetSymbol
 
     def __getitem__(self, node: Node) -> Quaternion:
-        from symctrl.study import Quaternion
-
         return Quaternion(self.vector[node], self.scalar[node])
 
 
 class Fleet:
     """The fleet of a study. `node` is the generic node i, `neighbour` its generic neighbour j."""
 
-    def __init__(self, study: Study, name: str, default: str) -> None:
+    def __init__(self, study: Declares, name: str, default: str) -> None:
         self.study = study
         self.name = name
         self.default = default

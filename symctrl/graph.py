@@ -17,14 +17,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import accumulate
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, Protocol, TypeVar
 
 import casadi as ca
 
-if TYPE_CHECKING:
-    from symctrl.domains.domain import Domain
-
 Value = TypeVar("Value")
+Meant = TypeVar("Meant", covariant=True)
 
 # Every scalar opcode that a CasADi SX function can hold and that has a meaning in at least one domain,
 # with its number of arguments.
@@ -43,6 +41,13 @@ ARITY: Mapping[str, int] = {**dict.fromkeys(_UNARY, 1), **dict.fromkeys(_BINARY,
 _TRANSPARENT = frozenset(("ASSIGN", "LIFT"))
 _OPCODE_NAMES = {getattr(ca, name): name[3:] for name in dir(ca) if name.startswith("OP_")}
 MAX_LITERAL_DIGITS = 10
+
+
+class Operations(Protocol[Meant]):
+    """What the walk needs of a domain (symctrl.domains.domain)."""
+
+    def operation(self, op: str) -> Callable[..., Meant]: ...
+    def constant(self, value: Fraction) -> Meant: ...
 
 
 class GraphError(ValueError):
@@ -257,7 +262,7 @@ def _offsets(sizes: Sequence[int]) -> list[int]:
 
 
 def interpret(
-    function: ca.Function | Tape, domain: Domain[Value], inputs: Mapping[str, Value] | Sequence[Value]
+    function: ca.Function | Tape, domain: Operations[Value], inputs: Mapping[str, Value] | Sequence[Value]
 ) -> list[Value]:
     """The values of all scalar outputs in `domain`.
 
@@ -281,7 +286,7 @@ def interpret(
     return prebound(tape, domain)([inputs[name] for name in tape.inputs])
 
 
-def prebound(tape: Tape, domain: Domain[Value]) -> Callable[[Sequence[Value]], list[Value]]:
+def prebound(tape: Tape, domain: Operations[Value]) -> Callable[[Sequence[Value]], list[Value]]:
     """The walk over `tape` in `domain` with every operation looked up once, for many evaluations.
 
     The result takes one value per name in `tape.inputs`, in order, and raises GraphError for another number.

@@ -14,6 +14,7 @@ from symctrl.context import Instance, current
 from symctrl.entries import component_names
 from symctrl.expr import Expr, Liftable, deferred, foreign, lift, symbol
 from symctrl.fleet import Fleet
+from symctrl.quaternion import Quaternion
 from symctrl.records import Undefined, rate
 from symctrl.statements import Bound, Definite, Equal, Nonzero, Statement, equal
 from symctrl.vectors import stack
@@ -37,23 +38,6 @@ class Symbol:
     unit: str | None
     values: Mapping[str, Fraction] = field(default_factory=dict)
     gain: bool = False
-
-
-@dataclass(frozen=True)
-class Quaternion:
-    """A quaternion by its vector part (3x1) and its scalar part."""
-
-    vector: Expr
-    scalar: Expr
-
-    @property
-    def stacked(self) -> Expr:
-        """Vector part above scalar part, 4x1."""
-        return stack(self.vector, self.scalar)
-
-    @property
-    def conjugate(self) -> Quaternion:
-        return Quaternion(-self.vector, self.scalar)
 
 
 @dataclass(frozen=True)

@@ -7,18 +7,28 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 from symctrl.context import current
 from symctrl.expr import Expr, Nonconforming, deferred, lift
+from symctrl.fleet import Fleet
 from symctrl.records import Named
 
-if TYPE_CHECKING:
-    from symctrl.study import Study
 
 
 class StudyError(ValueError):
     """Something in a study, or in what is asked of it, that must be put right; the message says what."""
+
+
+class Entered(Protocol):
+    """What an entry needs of its study: its name, its fleet, and the table of entries."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def of_fleet(self) -> Fleet | None: ...
+    @property
+    def entries(self) -> dict[str, Entry]: ...
 
 
 @dataclass(frozen=True)
@@ -46,7 +56,7 @@ class Entry:
     def ids(self) -> list[str]:
         return [f"{self.id}[{name}]" for name in self.readings] or [self.id]
 
-    def call(self, study: Study, reading: str | None = None) -> Any:
+    def call(self, study: Entered, reading: str | None = None) -> Any:
         """The function's result, for the generic node i and its neighbour j."""
         fleet = study.of_fleet
         arguments: list[Any] = []
@@ -64,7 +74,7 @@ class Entry:
 
 
 def enter(
-    study: Study,
+    study: Entered,
     function: Callable[..., Any],
     form: str,
     equation: str,
@@ -120,7 +130,7 @@ def enter(
 class Definition:
     """A named quantity: called, it gives its name as an expression whose value is the function's."""
 
-    def __init__(self, entry: Entry, study: Study) -> None:
+    def __init__(self, entry: Entry, study: Entered) -> None:
         self.entry = entry
         self.study = study
         self.correction: Entry | None = None
@@ -162,7 +172,7 @@ class Definition:
 class Law:
     """A control law: what an input is set to. In a fleet, at every node."""
 
-    def __init__(self, entry: Entry, study: Study, u: Any) -> None:
+    def __init__(self, entry: Entry, study: Entered, u: Any) -> None:
         self.entry = entry
         self.study = study
         self.u = u

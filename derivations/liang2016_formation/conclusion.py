@@ -21,7 +21,7 @@ def rate_gives_omega(i):
 
 
 def _quaternion(x):
-    from symctrl.study import Quaternion
+    from symctrl.quaternion import Quaternion
 
     return Quaternion(x[:3], x[3])
 

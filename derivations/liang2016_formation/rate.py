@@ -155,7 +155,7 @@ def M_corrected():
 
 def all_of_zeta():
     """A vector with the 6n components that zeta has for n craft."""
-    return stack(*[zeta(i)] * fleet.size)
+    return stack(*[dq(i)] * fleet.size, *[s(i)] * fleet.size)
 
 
 @study.printed("(9), (10)")

@@ -120,21 +120,14 @@ def _draw(
 
 
 def _number(made: Recipe, name: str, generator: random.Random, height: int, attempt: int) -> Fraction:
-    """A small rational; every other attempt a power that keeps roots rational, and smaller ones as attempts
-    fail.
-    """
+    """A small rational; every other attempt a power that keeps roots rational; of any size as attempts fail."""
     root = made.root if attempt % 2 == 0 else 1
-    value = (
-        Fraction(generator.randint(name in made.positive, height + 1), generator.randint(1, height)) ** root
-    )
+    least = int(name in made.positive)
+    value = Fraction(generator.randint(least, height + 1), generator.randint(1, height)) ** root
     if name not in made.positive and generator.random() < 0.5:
         value = -value
-    if (
-        name not in made.positive
-        and made.problem.scalars.get(name) in ("signal", "state", "parameter")
-        and attempt > 4
-    ):
-        value /= 2 ** generator.randint(0, attempt // 2)
+    if attempt > 4:
+        value *= Fraction(2) ** generator.randint(-(attempt // 2), attempt // 2)
     return value
 
 

@@ -29,7 +29,7 @@ class Signs:
             (k,) = occurring
             c = coefficient(p)
             if p == self.field_.variable(k) * p.leading_coefficient() and c > 0:
-                self.generator[k] = kind
+                self.generator[k] = _both(self.generator.get(k, kind), kind)
                 return
         self.facts.append((p, kind))
 
@@ -90,3 +90,8 @@ def determinant_of(domain: ExactDomain, rows: list[list[Exact]]) -> Exact:
             term = domain.mul_(entry, minor)
             total = domain.sub_(total, term) if c % 2 else domain.add_(total, term)
     return total
+
+
+def _both(a: str, b: str) -> str:
+    """What two known kinds of sign say together: whatever two different ones say, it is positive."""
+    return a if a == b else "positive"
