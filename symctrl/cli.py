@@ -143,7 +143,7 @@ def verify(
     requests = [Request(name, graph, _values(setting or [])) for name in _chosen(studies or [], every)]
     decided = runs.decide(requests, claim or None, jobs=jobs, fresh=fresh, watch=_watch)
     if certificates is not None:
-        files.make_folder(certificates)
+        files.refuse_unwritable_folder(certificates)
     _refuse_early(json)
     reports = []
     for study, report in decided:
@@ -173,7 +173,8 @@ def check(paths: Annotated[list[Path], typer.Argument(metavar="FILE...")]) -> No
             _complain(f"{path}: unreadable: {answer.reason}")
             continue
         print(f"{path}: {answer.status}: {answer.reason}")
-        print(textwrap.indent(answer.statement, "  "))
+        if answer.statement:
+            print(textwrap.indent(answer.statement, "  "))
     raise typer.Exit(exit_code(answers))
 
 

@@ -22,6 +22,7 @@ from symctrl.reach import Reach, pruned, with_motion
 from symctrl.records import Named, Rate, Record, Sum, Undefined
 from symctrl.statements import Bound, Definite, Equal, Hint, Nonzero, Statement
 from symctrl.structure import lowered
+from symctrl.written import StudyError
 
 if TYPE_CHECKING:
     from symctrl.study import Study
@@ -96,7 +97,7 @@ class Collector:
         """
         record = used.left.args[0] if used.left.op == "deferred" else None
         if not isinstance(record, Named | Rate):
-            raise TypeError(f"using: {used.text()} has no definition and no rate of one on its left")
+            raise StudyError(f"using: {used.text()} has no definition and no rate of one on its left")
         listing = f"using {used.left.args[0].label}"
         self.add(listing, [used.right])
         self._reach(listing)
@@ -116,7 +117,7 @@ class Collector:
             return replace(made, names=names)
         inner = record.body.args[0] if record.body.op == "deferred" else None
         if not isinstance(inner, Named | Rate):
-            raise TypeError(f"using: {used.text()} is the rate of an expression without a name")
+            raise StudyError(f"using: {used.text()} is the rate of an expression without a name")
         shown = self._scalars_of(inner, record.body)
         return with_motion(made, inner.label, shown, listing) if shown[0] in made.names else made
 
@@ -131,7 +132,7 @@ class Collector:
         Reach(self, wanted=self._add_motion).listing(listing)
 
     def _advice(self, hint: Hint) -> Advice:
-        """The hint as a listing beside the statement. Raises TypeError where it speaks of what the claim does
+        """The hint as a listing beside the statement. Raises StudyError where it speaks of what the claim does
         not.
         """
         exprs = [hint.times] if hint.times is not None else []
@@ -140,7 +141,9 @@ class Collector:
         self.add(ADVICE, exprs)
         new = (set(self.listings) | set(self.scalars) | set(self.names)) - before - {ADVICE}
         if new:
-            raise TypeError(f"a hint of a proof speaks of {', '.join(sorted(new))}, which the claim does not")
+            raise StudyError(
+                f"a hint of a proof speaks of {', '.join(sorted(new))}, which the claim does not"
+            )
         sizes = tuple(x.shape[0] for _, x in hint.forms)
         return Advice(self.listings.pop(ADVICE), hint.times is not None, len(hint.squares), sizes)
 
@@ -280,7 +283,7 @@ class Collector:
             of = tuple((listing, k) for k in range(n * n))
             self.given.append(Assumption(claim.kind, of, written, about, n))
         else:
-            raise TypeError(
+            raise StudyError(
                 f"{written} cannot be assumed: an assumption is an equation, a bound, definiteness or nonzero"
             )
 

@@ -53,11 +53,11 @@ def refuse_unwritable(path: Path) -> None:
         raise InputError(f"{path}: cannot be written: {error.strerror}") from None
 
 
-def make_folder(path: Path) -> None:
-    """`path` is a folder in which files can be written, or InputError is raised."""
+def refuse_unwritable_folder(path: Path) -> None:
+    """Raises InputError now if `path` is no folder in which files could be written later; nothing is made."""
+    there = next(folder for folder in (path, *path.absolute().parents) if folder.exists())
     try:
-        path.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=path):
+        with tempfile.TemporaryFile(dir=there):
             return
     except OSError as error:
         raise InputError(f"{path}: is not a folder that can be written: {error.strerror}") from None

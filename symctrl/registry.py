@@ -170,6 +170,6 @@ def _asked_in_vain(name: str, error: BaseException) -> BaseException:
 
 def _shortened(error: BaseException, authors: list[Frame], last: Frame) -> str:
     lines = traceback.format_list(authors)
-    if authors and last != authors[-1]:
+    if authors and last != authors[-1] and Path(__file__).parent not in Path(last.filename).parents:
         lines.append(f"  raised below it in {last.filename}, line {last.lineno}\n")
     return "the study's code failed:\n" + "".join(lines + traceback.format_exception_only(error)).rstrip()

@@ -57,7 +57,7 @@ def write_certificates(report: Report, target: Path) -> None:
     try:
         for row in report.rows:
             path = paths[row.id]
-            path.parent.mkdir(exist_ok=True)
+            path.parent.mkdir(parents=True, exist_ok=True)
             if row.certificate is None:
                 path.unlink(missing_ok=True)
             else:

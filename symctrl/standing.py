@@ -14,10 +14,13 @@ from symctrl.verdict import Outcome, Verdict
 from symctrl.written import StudyError
 
 if TYPE_CHECKING:
+    from symctrl.store import Store
     from symctrl.study import Study
 
 
-def with_conditions(study: Study, claim: Any, using: Sequence[Any], verdict: Verdict, row: Row) -> Row:
+def with_conditions(
+    study: Study, claim: Any, using: Sequence[Any], verdict: Verdict, row: Row, store: Store | None
+) -> Row:
     """The row with each condition of its proof and who vouches for it.
 
     An assumption about the trajectory that the study makes, or the exact values of the parameters: found by
@@ -26,8 +29,8 @@ def with_conditions(study: Study, claim: Any, using: Sequence[Any], verdict: Ver
     if not verdict.conditions:
         return row
     assumed = study.trajectory_assumptions()
-    under = _conditions(study, claim, using, row.id, None, along=True) if assumed else None
-    at_values = _conditions(study, claim, using, row.id, study.all_values(), along=bool(assumed))
+    under = _conditions(study, claim, using, row.id, None, True, store) if assumed else None
+    at_values = _conditions(study, claim, using, row.id, study.all_values(), bool(assumed), store)
     discharged = []
     used = False
     for condition in verdict.conditions:
@@ -108,14 +111,20 @@ def refuse_needless(study: Study, rows: Sequence[Row]) -> None:
 
 
 def _conditions(
-    study: Study, claim: Any, using: Sequence[Any], id_: str, values: dict[str, Fraction] | None, along: bool
+    study: Study,
+    claim: Any,
+    using: Sequence[Any],
+    id_: str,
+    values: dict[str, Fraction] | None,
+    along: bool,
+    store: Store | None,
 ) -> list[str] | None:
     """The conditions of the claim decided under the trajectory assumptions, or at exact values; None if not
     proved so.
     """
     try:
         with study.along_trajectory(along):
-            verdict = verdict_of(parts(study, claim, id_, values, using), None)
+            verdict = verdict_of(parts(study, claim, id_, values, using), store)
     except Nonconforming:
         return None
     return [str(c) for c in verdict.conditions] if verdict.outcome is Outcome.PROVED else None

@@ -17,6 +17,7 @@ from symctrl.problem import Problem
 from symctrl.reach import closings
 from symctrl.statements import AtValues, Equivalent, Implies, Statement, SufficientlySmall
 from symctrl.verdict import Condition, Outcome, Verdict
+from symctrl.written import StudyError
 
 if TYPE_CHECKING:
     from symctrl.store import Store
@@ -38,10 +39,10 @@ def parts(
     values: Mapping[str, Fraction] | None = None,
     using: Sequence[Statement] = (),
 ) -> list[Part]:
-    """The problems that a claim consists of. Raises UndefinedLetter, Nonconforming, TypeError."""
+    """The problems that a claim consists of. Raises UndefinedLetter, Nonconforming, StudyError."""
     if isinstance(claim, list | tuple):
         if not claim:
-            raise TypeError(f"{id_}: an empty list claims nothing")
+            raise StudyError(f"{id_}: an empty list claims nothing")
         return [part for one in claim for part in parts(study, one, id_, values, using)]
     if isinstance(claim, AtValues):
         return parts(study, claim.claim, id_, study.all_values(), using)
@@ -65,7 +66,7 @@ def parts(
     if isinstance(claim, SufficientlySmall):
         return [Part(_problem(study, claim.claim, id_, (), values, using, small=claim.gain.args[0]))]
     if not isinstance(claim, Statement):
-        raise TypeError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
+        raise StudyError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
     return [Part(_problem(study, claim, id_, (), values, using))]
 
 
