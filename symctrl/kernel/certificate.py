@@ -211,8 +211,8 @@ def load(text: str) -> Certificate:
     Raises Unreadable for what is no certificate of this version, Invalid for one that is malformed, and
     Declined for one that exceeds a size limit.
     """
-    from symctrl.kernel.closure import require_closed  # noqa: PLC0415  (both need the types of this file)
-    from symctrl.kernel.form import read_statement  # noqa: PLC0415
+    from symctrl.kernel.closure import require_closed  # both need the types of this file
+    from symctrl.kernel.form import read_statement
 
     top = _parse(text)
     fields(top, ("format", "tool", "statement", "proof", "sha256"), "the certificate")
@@ -275,8 +275,3 @@ def text_field(value: Any, where: str) -> str:
     if len(typed(value, str, where)) > MAX_STRING:
         raise Declined(f"{where} is longer than {MAX_STRING} characters")
     return str(value)
-
-
-_DECODER = json.JSONDecoder(
-    object_pairs_hook=_object, parse_int=_integer, parse_float=_no_float, parse_constant=_no_constant
-)

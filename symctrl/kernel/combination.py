@@ -10,8 +10,8 @@ its numerator alone where those factors are positive; all factors are nonzero on
 The terms add up to the quantity, or to it times a positive POLY (`times`).
 A term is `[c, [g, ..], [POLY, ..]]`. A g is the index of an assumption that a scalar is positive or
 nonnegative, and stands for the numerator of that scalar times its factors of odd exponent; or it is a
-POLY whose sign the kernel knows (a root, an absolute value, an exponential, ..); or `{"given", "vector"}`, which is
-x'Px for an assumed definite P and a vector x of POLYs.
+POLY whose sign the kernel knows (a root, an absolute value, an exponential, ..); or `{"given", "vector"}`,
+which is x'Px for an assumed definite P and a vector x of POLYs.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where:
     total: Poly = {}
     positive = False
     table = fields(entry, ("terms",), where, optional=("times",))
-    times = _positive(replay, table["times"], where) if "times" in table else {0: 1}
+    times: Poly = _positive(replay, table["times"], where) if "times" in table else {0: 1}
     for k, term in enumerate(typed(table["terms"], list, where)):
         product, sure = _term(replay, term, f"{where}, term {k}")
         total = ring.add(total, product)
@@ -103,7 +103,7 @@ def _term(replay: Replay, value: Any, where: str) -> tuple[Poly, bool]:
     for square in typed(term[2], list, where):
         p = replay.poly(square, where)
         result = replay.field.ring.mul(result, replay.field.ring.mul(p, p))
-        positive = positive and (p in replay.field.factors or 0 not in replay.signs.of(p))
+        positive = positive and (replay.is_factor(p) or 0 not in replay.signs.of(p))
     return result, positive
 
 

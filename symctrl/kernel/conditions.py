@@ -14,7 +14,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 from itertools import combinations
-from math import gcd, lcm
+from math import comb, gcd, lcm
 
 from symctrl.kernel.certificate import Condition, Invalid
 from symctrl.kernel.field import Field, Value
@@ -29,7 +29,8 @@ SIGNS: dict[str, SignSet] = {
     "positive": frozenset((1,)),
     "nonnegative": frozenset((0, 1)),
 }
-MAX_MINOR = 4
+MAX_MINOR = 4  # rows
+MAX_MINORS = 1000  # of one size
 _ODD = ("tanh", "sinh", "atan", "asinh", "erf", "asin", "atanh")
 
 
@@ -52,7 +53,7 @@ class Signs:
         self.field = field
         self.table = table
         self.printer = Printer(table, field)
-        self.needed: set[Condition] = set()
+        self.needed: dict[Condition, Poly] = {}
         self._known: dict[frozenset[tuple[int, Number]], tuple[Poly, SignSet]] = {}
         self._matrices: list[tuple[list[list[Value]], SignSet]] = []
         self._cache: dict[int, SignSet] = {}
@@ -167,7 +168,7 @@ class Signs:
             raise Invalid(f"{what} must be {kind}, and it never is: {self.printer.poly(p)[:200]}")
         _, flip, unit = _unit(p)
         shown = unit if kind == "nonzero" or 1 in flip else self.field.ring.scale(unit, -1)
-        self.needed.add(Condition(kind, self.printer.poly(_primitive(shown))))
+        self.needed[Condition(kind, self.printer.poly(_primitive(shown)))] = p
 
     def require_value(self, kind: str, value: Value, what: str) -> None:
         """The same of a value."""
@@ -182,7 +183,8 @@ class Signs:
     def _learn_minors(self) -> None:
         matrices, self._matrices = self._matrices, []
         for matrix, signs in matrices:
-            for size in range(1, min(MAX_MINOR, len(matrix)) + 1):
+            n = len(matrix)
+            for size in (size for size in range(1, min(MAX_MINOR, n) + 1) if comb(n, size) <= MAX_MINORS):
                 for rows in combinations(range(len(matrix)), size):
                     minor = determinant(self.field, [[matrix[r][c] for c in rows] for r in rows])
                     self._learn(self.carrier(minor), signs)

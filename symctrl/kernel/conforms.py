@@ -21,7 +21,7 @@ def verify(statement: Statement, proof: dict[str, Any]) -> None:
 
 
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
-    """None: that a definition is well formed needs no conditions. Raises Invalid for another claim or proof."""
+    """None: a definition is well formed without any. Raises Invalid for another claim or proof."""
     if statement.claim.kind != "conforms":
         raise Invalid(f"a proof of kind conforms does not prove a claim of the kind {statement.claim.kind}")
     fields(proof, ("kind",), "proof")

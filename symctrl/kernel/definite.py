@@ -2,15 +2,16 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorems: A (x) I and block diagonal matrices have the definiteness of their parts; C'PC is semidefinite with P, and
-definite if C is invertible too. A = L D L' and dominance of A - L L' are in `matrices`. Sylvester: a symmetric A all
-of whose leading principal minors are positive is definite. Gershgorin: so is one whose diagonal entries exceed the sums
-of the absolute values beside them. A sum of g P with g >= 0 and semidefinite P is semidefinite (Horn and Johnson, Matrix
-Analysis, 7.1, 7.2, 6.1). A claim about all small positive values of a gain: a polynomial in it has the sign of its lowest
-coefficient there.
+Theorems: A (x) I and block diagonal matrices have the definiteness of their parts; C'PC is semidefinite with
+P, and definite if C is invertible too. A = L D L' and dominance of A - L L' are in `matrices`. Sylvester: a
+symmetric A all of whose leading principal minors are positive is definite. Gershgorin: so is one whose
+diagonal entries exceed the sums of the absolute values beside them. A sum of g P with g >= 0 and semidefinite P is
+semidefinite (Horn and Johnson, Matrix Analysis, 7.1, 7.2, 6.1). A claim about all small positive values of a
+gain, each smaller than a bound that depends on the other parameters: a polynomial in the gain has the sign of
+its lowest coefficient there.
 
-The `matrix` of a proof is the claim's tree with a leaf proof in the place of each block of entries. Rows of `lower` go up
-to the diagonal.
+The `matrix` of a proof is the claim's tree with a leaf proof in the place of each block of entries. Rows of
+`lower` go up to the diagonal.
 """
 
 from __future__ import annotations
@@ -27,13 +28,14 @@ from symctrl.kernel.certificate import (
     fields,
     natural,
     rational,
+    split_name,
     typed,
 )
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.conditions import SIGNS, determinant
 from symctrl.kernel.field import Value
 from symctrl.kernel.matrices import Rows, has_factors, is_dominant
-from symctrl.kernel.polynomial import monomial, powers
+from symctrl.kernel.polynomial import monomial, powers, variables
 from symctrl.kernel.replay import Replay, require_conditions
 from symctrl.kernel.sums import SumIdentity, SymbolSums
 
@@ -58,7 +60,15 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     replay.assume_given()
     outputs = replay.claim()
     test = SumIdentity(replay, sums)
-    _prove_tree(test, outputs, claim.matrix, proof["matrix"], claim.kind == "positive_definite")
+    strict = claim.kind == "positive_definite"
+    if claim.small is None:
+        _prove_tree(test, outputs, claim.matrix, proof["matrix"], strict)
+        return replay.close()
+    _require_free_gain(replay, claim.small, outputs)
+    _prove_tree(test, outputs, claim.matrix, proof["matrix"], strict)
+    for condition, p in replay.signs.needed.items():
+        if condition.kind != "nonzero" and replay.free[claim.small] in replay.behind(variables(p)):
+            raise Declined(f"{claim.small} is bounded by the condition {condition.kind} on {condition.of[:200]}")
     return replay.close()
 
 
@@ -159,7 +169,7 @@ def _by_minors(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
 
 
 def _by_rows(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
-    """In each row the diagonal entry exceeds the sum of the absolute values of the others, whose signs are known."""
+    """In each row the diagonal entry exceeds the sum of the others in magnitude, whose signs are known."""
     replay = test.replay
     if len(typed(proofs, list, "rows")) != len(matrix):
         raise Invalid(f"the matrix has {len(matrix)} rows, and the proof {len(proofs)}")
@@ -176,19 +186,39 @@ def _by_rows(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
 
 
 def _lowest(replay: Replay, value: Value) -> Value:
-    """For a claim about small values of a gain: the coefficient of its lowest power, which decides the sign."""
+    """For a claim about small values of a gain, the coefficient of its lowest power: it decides the sign."""
     small = replay.statement.claim.small
     if small is None:
         return value
-    if small not in replay.free:
-        return value
     p = replay.field.normal(replay.signs.carrier(value))
     gain = replay.free[small]
-    if any(k != gain and replay.reaches(k, {gain}) for m in p for k, _ in powers(m)):
+    if any(k != gain and replay.reaches(k, {gain}) for k in variables(p)):
         raise Declined(f"{small} occurs inside a root or another function")
     least = min((dict(powers(m)).get(gain, 0) for m in p), default=0)
     lowest = {m - monomial([(gain, least)]): c for m, c in p.items() if dict(powers(m)).get(gain, 0) == least}
     return {(): lowest} if lowest else {}
+
+
+def _require_free_gain(replay: Replay, small: str, outputs: Sequence[Value]) -> None:
+    """How small a gain must be depends on the other parameters, so these must not depend on it in turn.
+
+    Nothing that is given ties the gain to others, and the matrix reads nothing that moves.
+    """
+    gain = replay.free[small]
+    for assumption, entries in zip(replay.statement.given, replay.given, strict=True):
+        sign_of_gain = entries == [replay.field.generator(gain)] and assumption.kind != "zero"
+        if not sign_of_gain and gain in _behind(replay, entries):
+            raise Declined(f"what is given about {small} restricts how small it can be")
+    for k in _behind(replay, outputs):
+        g = replay.table[k]
+        if g.kind == "free" and replay.statement.scalars.get(split_name(g.name)[0]) != "parameter":
+            raise Declined(f"how small {small} must be would depend on {g.name}, which is no parameter")
+
+
+def _behind(replay: Replay, values: Sequence[Value]) -> set[int]:
+    factors = {f for value in values for key in value for f, _ in key}
+    polynomials = [p for value in values for p in value.values()] + [replay.field.factors[f] for f in factors]
+    return replay.behind(set().union(*map(variables, polynomials)))
 
 
 def _by_assumption(test: SumIdentity, matrix: Matrix, k: Any, strict: bool) -> None:
@@ -196,7 +226,7 @@ def _by_assumption(test: SumIdentity, matrix: Matrix, k: Any, strict: bool) -> N
     assumption = replay.statement.given[natural(k, len(replay.given), "given")]
     kinds = ("positive_definite",) if strict else ("positive_definite", "positive_semidefinite")
     if assumption.kind not in kinds or assumption.size != n:
-        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows, which is not the claim")
+        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows, not what is claimed")
     for r in range(n):
         for c in range(n):
             where = f"the assumed matrix in row {r + 1}, column {c + 1}"
@@ -221,7 +251,7 @@ def _by_sum(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None
         definite = _proves(rows, table["proof"], sure) or definite
         for r in range(n):
             for c in range(n):
-                term = {(): field.ring.scale(g, rows[r][c])} if rows[r][c] else {}
+                term: Value = {(): field.ring.scale(g, rows[r][c])} if rows[r][c] else {}
                 left[r][c] = field.sub(left[r][c], term)
     for r in range(n):
         for c in range(n):

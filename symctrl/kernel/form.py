@@ -72,6 +72,8 @@ def read_statement(value: Any) -> Statement:
         raise Invalid("a condition is listed twice")
     study, id_, words = (text_field(s[field], field) for field in ("study", "id", "text"))
     claim = _claim(s["claim"], listings)
+    if claim.small is not None and scalars.get(claim.small) != "parameter":
+        raise Declined(f"the claim is about small values of {claim.small[:60]}, which is no parameter of it")
     return Statement(study, id_, words, listings, scalars, names, motion, laws, given, claim, conditions)
 
 
@@ -207,8 +209,8 @@ def _tree(value: Any, count: int, used: set[int]) -> int:
         size = natural(table["size"], MAX_SIZE, "matrix") * _tree(table["kron_identity"], count, used)
     elif "congruence" in tree:
         table = fields(tree, ("congruence", "factor"), "matrix")
-        rows = typed(table["factor"], list, "matrix")
-        size = len(typed(rows[0], list, "matrix")) if rows else 0
+        rows = [typed(row, list, "matrix") for row in typed(table["factor"], list, "matrix")]
+        size = len(rows[0]) if rows else 0
         if len(rows) != _tree(table["congruence"], count, used) or any(len(row) != size for row in rows):
             raise Invalid("claim: the factor of a congruence does not fit its matrix")
         used.update(natural(k, count, "matrix") for row in rows for k in row)

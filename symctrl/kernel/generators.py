@@ -192,7 +192,8 @@ class Printer:
         if g.kind == "free":
             return g.name
         if g.kind == "sum":
-            return f"sum({self.poly({monomial(g.powers): 1})})"
+            of = self.poly({monomial(g.powers): 1}) if g.powers else f"1 at {g.name}"
+            return f"sum({of})"
         if g.kind == "root":
             return f"sqrt({of})" if g.number == 2 else f"root({g.number}, {of})"
         if g.kind == "power":

@@ -2,19 +2,23 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on: a hint only proposes, and any hint may serve; each is checked by the rule of its operation (`functions`), an inverse by
-comparing the inverted value. All factors are nonzero and all generators real, by what is given or by a
-condition of the statement, and everything that the proof brings is used.
+Relies on: a hint only proposes, and any hint may serve; each is checked by the rule of its operation
+(`functions`), an inverse by comparing the inverted value. What a value uses is established where it is
+first used: a factor is nonzero and a generator real by what is known until then, or by a condition. So
+nothing that is learned from a value ever justifies that this value exists. Plain polynomials, which always
+exist, are learned first. An assumption is met only where it is defined: what it divides by is not zero
+there. Everything that the proof brings must be used.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 from typing import Any
 
 from symctrl.kernel import functions
 from symctrl.kernel.certificate import (
+    Assumption,
     Condition,
     Declined,
     Invalid,
@@ -25,13 +29,15 @@ from symctrl.kernel.certificate import (
     typed,
 )
 from symctrl.kernel.chain import Domain
+from symctrl.kernel.closure import Reach
 from symctrl.kernel.conditions import Signs
 from symctrl.kernel.evaluation import Evaluation, Sums
 from symctrl.kernel.field import Field, Value, read_poly, read_powers
 from symctrl.kernel.generators import read_by, read_generators, relations_of
-from symctrl.kernel.polynomial import Poly, monomial, relation, variables
+from symctrl.kernel.polynomial import Poly, Relation, monomial, relation, variables
 
 MAX_FACTOR_POWER = 1000
+_PLAIN = frozenset(("INPUT", "CONST", "ADD", "SUB", "MUL", "NEG", "SQ", "TWICE"))
 
 
 class Replay(Domain[Value]):
@@ -45,65 +51,80 @@ class Replay(Domain[Value]):
         generators = typed(proof["generators"], list, "generators")
         count = len(generators)
         self.field = Field(count, [read_poly(f, count, f"factor {k}") for k, f in enumerate(factors)])
+        if any(p.keys() <= {0} for p in self.field.factors):
+            raise Invalid("a factor is a number")
         self.table = read_generators(generators, self.field)
         self.free = {g.name: k for k, g in enumerate(self.table) if g.kind == "free"}
         self.signs = Signs(self.field, self.table)
         self.statement = statement
         self.walk = Evaluation(statement, self, self._free, sums)
-        self.given: list[list[Value]] = []
+        self.given: list[list[Value]] = [[]] * len(statement.given)
         self._hints = [typed(hint, dict, "a hint") for hint in typed(proof["hints"], list, "hints")]
         self._used_hints: set[int] = set()
         self._results: dict[Any, Value] = {}
         self._used: set[int] = set()
         self._used_factors: set[int] = set()
+        self._learned: list[Relation] = []
+        self._assuming = False
         self._add_relations()
 
     def _add_relations(self) -> None:
-        self.field.relations = [r for r in self.field.relations if r not in self._of_generators()]
-        self.field.relations += self._of_generators()
-
-    def _of_generators(self) -> list[tuple[int, Poly]]:
+        """Those that were learned, and those of the generators by what is known now."""
         top = range(len(self.table) - 1, -1, -1)
-        return [r for k in top for r in relations_of(k, self.table[k], self.field, self._nonzero)]
+        own = [r for k in top for r in relations_of(k, self.table[k], self.field, self._nonzero)]
+        self.field.relations = self._learned + own
 
     def _nonzero(self, p: Poly) -> bool:
-        return p in self.field.factors or 0 not in self.signs.of(p)
+        return self.is_factor(p) or 0 not in self.signs.of(p)
+
+    def is_factor(self, p: Poly) -> bool:
+        """Is the polynomial a factor that has been established?"""
+        return any(self.field.factors[f] == p for f in self._used_factors)
 
     def assume_given(self) -> None:
         """Evaluate what is given at node i, and at node j where the table has names of j; learn from it."""
-        for node in "ij":
-            if node == "i" or any(split_name(name.rstrip("'"))[1] == "j" for name in self.free):
-                self.assume(node)
+        nodes = "ij" if any(split_name(name.rstrip("'"))[1] == "j" for name in self.free) else "i"
+        order = sorted(enumerate(self.statement.given), key=lambda pair: not self._is_plain(pair[1]))
+        self._assuming = True
+        for node in nodes:
+            for k, assumption in order:
+                entries = [self.walk.output(ref, {"i": node}) for ref in assumption.of]
+                if node == "i":
+                    self.given[k] = entries
+                self._learn(assumption, entries)
+        self._assuming = False
 
-    def assume(self, node: str) -> None:
-        """Evaluate what is given at a node, and learn from it."""
-        values: list[list[Value]] = []
-        for assumption in self.statement.given:
-            entries = [self.walk.output(ref, {"i": node}) for ref in assumption.of]
-            values.append(entries)
-            if assumption.kind == "zero":
-                numerator = self.field.normal(self.field.fraction(entries[0])[0])
-                if numerator.keys() == {0}:
-                    raise Invalid("an assumption can never be met: a number that is not zero is zero")
-                if numerator:
-                    self.field.relations.append(relation(numerator))
-            elif len(entries) == 1:
-                kind = {"positive_definite": "positive", "positive_semidefinite": "nonnegative"}
-                self.signs.learn(kind.get(assumption.kind, assumption.kind), entries[0])
-            else:
-                rows = [entries[r :: assumption.size] for r in range(assumption.size)]
-                self.signs.learn_matrix(rows, assumption.kind == "positive_definite")
-        self.given = self.given or values
+    def _is_plain(self, assumption: Assumption) -> bool:
+        """Is it about polynomials, which are defined everywhere?"""
+        reach = Reach(self.statement)
+        for listing, _ in assumption.of:
+            reach.listing(listing, "i", 0, None)
+        steps = (step for visit in reach.done for step in self.statement.listings[visit[0]].code)
+        return all(step.op in _PLAIN for step in steps)
+
+    def _learn(self, assumption: Assumption, entries: list[Value]) -> None:
+        if assumption.kind == "zero":
+            numerator = self.field.normal(self.field.fraction(entries[0])[0])
+            if 0 not in self.signs.of(numerator):
+                raise Invalid("an assumption can never be met: what is never zero is zero")
+            if numerator:
+                self._learned.append(relation(numerator))
+        elif len(entries) == 1:
+            kind = {"positive_definite": "positive", "positive_semidefinite": "nonnegative"}
+            self.signs.learn(kind.get(assumption.kind, assumption.kind), entries[0])
+        else:
+            rows = [entries[r :: assumption.size] for r in range(assumption.size)]
+            self.signs.learn_matrix(rows, assumption.kind == "positive_definite")
         self._add_relations()
 
     def claim(self) -> list[Value]:
-        """The outputs of the claim's listing at node i."""
+        """The outputs of the claim's listing at node i, and its neighbour j where it speaks of one."""
         return self.walk.outputs(self.statement.claim.listing, {"i": "i", "j": "j"})
 
     def poly(self, value: Any, where: str) -> Poly:
         """A POLY that another part of the proof brings; its generators count as used."""
         p = read_poly(value, self.field.variables, where)
-        self._used |= variables(p)
+        self._establish(variables(p))
         return p
 
     def close(self) -> set[Condition]:
@@ -111,31 +132,30 @@ class Replay(Domain[Value]):
         idle = set(range(len(self._hints))) - self._used_hints
         if idle:
             raise Invalid(f"hint {min(idle)} of {len(self._hints)} is not used")
-        for k, g in enumerate(self.table):
-            functions.require_defined(self.signs, g, f"generator {k}")
-        for k, p in enumerate(self.field.factors):
-            self.signs.require("nonzero", p, f"factor {k}")
-        self._require_all_used()
-        return self.signs.needed
-
-    def _require_all_used(self) -> None:
-        used = set(self._used)
-        for k in range(len(self.table) - 1, -1, -1):
-            g = self.table[k]
-            if g.kind == "sin" and g.number in used:
-                used.add(k)  # sine and cosine come as a pair
-            if k in used:
-                used |= read_by(g, self.field)
-                self._used_factors |= {f for value in g.args for key in value for f, _ in key}
-        for f in self._used_factors:
-            used |= variables(self.field.factors[f])
-        for what, count, seen in (
-            ("generator", len(self.table), used),
+        pairs = {k for k, g in enumerate(self.table) if g.kind == "sin" and g.number in self._used}
+        for what, count, used in (
+            ("generator", len(self.table), self._used | pairs),  # sine and cosine come as a pair
             ("factor", len(self.field.factors), self._used_factors),
         ):
-            idle = sorted(set(range(count)) - seen)
+            idle = set(range(count)) - used
             if idle:
-                raise Invalid(f"{what} {idle[0]} is not used")
+                raise Invalid(f"{what} {min(idle)} is not used")
+        return set(self.signs.needed)
+
+    def _establish(self, generators: Iterable[int], factors: Iterable[int] = ()) -> None:
+        """These are used from now on: real, and not zero, by what is known or by a condition."""
+        for k in sorted(set(generators) - self._used):
+            g = self.table[k]
+            self._used.add(k)
+            self._establish(read_by(g, self.field), {f for value in g.args for key in value for f, _ in key})
+            functions.require_defined(self.signs, g, f"generator {k}")
+        for f in sorted(set(factors) - self._used_factors):
+            p = self.field.factors[f]
+            self._establish(variables(p))
+            self.signs.require("nonzero", p, f"factor {f}")
+            self._used_factors.add(f)
+            if any(g.kind == "sign" and g.base == p for g in self.table):
+                self._add_relations()
 
     # The basic operations.
 
@@ -169,37 +189,53 @@ class Replay(Domain[Value]):
             if number == 0:
                 raise Invalid("a division by zero")
             return self.constant(1 / number)
-        return self._found("INV", [a], lambda k: self._inverse(k, a))
+        return self._found("INV", [a])
 
     def function(self, op: str, args: Sequence[Value]) -> Value:
         if op not in functions.RULES:
             raise Declined(f"{op.lower()} has no rule")
-        return self._found(op, list(args), lambda k: self._result(k, op, list(args)))
+        return self._found(op, list(args))
 
-    def _found(self, op: str, args: list[Value], attempt: Callable[[int], Value | None]) -> Value:
+    def _found(self, op: str, args: list[Value]) -> Value:
         """The value that the first hint gives that the rule of the operation confirms."""
         memo = op, tuple(frozenset((key, frozenset(p.items())) for key, p in a.items()) for a in args)
-        reason = ""
-        for k in range(len(self._hints)) if memo not in self._results else ():
-            try:
-                value = attempt(k)
-            except Invalid as refused:
-                reason = f": {refused}"
-                continue
-            if value is not None:
-                self._used_hints.add(k)
-                self._results[memo] = value
-                break
         if memo not in self._results:
-            of = ", ".join(self.signs.printer.value(a)[:120] for a in args)
-            raise Invalid(f"no hint gives {op.lower()} of {of}{reason}")
+            self._results[memo] = self._search(op, args)
         return self._results[memo]
 
-    def _inverse(self, k: int, a: Value) -> Value | None:
-        """The inverse by hint k, if that is one."""
-        where, hint = f"hint {k}", self._hints[k]
-        if "inverse" not in hint:
-            return None
+    def _search(self, op: str, args: list[Value]) -> Value:
+        reason = ""
+        for k, hint in enumerate(self._hints):
+            if ("inverse" in hint) != (op == "INV"):
+                continue
+            needed = dict(self.signs.needed)
+            try:
+                value, below = self._by_hint(k, op, args)
+            except Invalid as refused:  # a hint that is refused leaves no condition
+                self.signs.needed = needed
+                reason = f": {refused}"
+                continue
+            self._used_hints.add(k)
+            self._establish((), below)
+            if op == "INV" and self._assuming:
+                for f in (f for key in value for f, _ in key):
+                    self.signs.learn("nonzero", {(): self.field.factors[f]})
+            for key, p in value.items():
+                self._establish(variables(p), [f for f, _ in key])
+            return value
+        of = ", ".join(self.signs.printer.value(a)[:120] for a in args)
+        raise Invalid(f"no hint gives {op.lower()} of {of}{reason}")
+
+    def _by_hint(self, k: int, op: str, args: list[Value]) -> tuple[Value, set[int]]:
+        """The value by hint k, and the factors that its check divides by. Raises Invalid if it is another."""
+        where = f"hint {k} ({op.lower()})"
+        if op == "INV":
+            return self._inverse(where, self._hints[k], args[0])
+        value = self.field.read(fields(self._hints[k], ("is",), where)["is"], where)
+        functions.RULES[op](functions.Step(self.field, self.table, self.signs, op, where), args, value)
+        return value, set()
+
+    def _inverse(self, where: str, hint: dict[str, Any], a: Value) -> tuple[Value, set[int]]:
         pair = typed(fields(hint, ("inverse",), where)["inverse"], list, where)
         if len(pair) != 2:
             raise Invalid(f"{where}: an inverse is [number, powers of factors]")
@@ -213,33 +249,30 @@ class Replay(Domain[Value]):
         stated = {down: ring.scale(self.field.denominator(up), scale)}
         if not self.field.is_zero(self.field.sub(a, stated)):
             raise Invalid(f"{where} is about another value")
-        self._used_factors |= {f for f, _ in factors}
-        return {up: ring.scale(self.field.denominator(down), 1 / scale)}
-
-    def _result(self, k: int, op: str, args: list[Value]) -> Value | None:
-        """The value of a function by hint k, if that is one."""
-        where, hint = f"hint {k} ({op.lower()})", self._hints[k]
-        if "is" not in hint:
-            return None
-        value = self.field.read(fields(hint, ("is",), where)["is"], where)
-        functions.RULES[op](functions.Step(self.field, self.table, self.signs, op, where), args, value)
-        for key, p in value.items():
-            self._used |= variables(p)
-            self._used_factors |= {f for f, _ in key}
-        return value
+        return {up: ring.scale(self.field.denominator(down), 1 / scale)}, {f for f, _ in down}
 
     def sum_generator(self, inside: tuple[tuple[int, int], ...], node: str) -> int:
-        """The generator of the sum of a monomial over the neighbours of a node. Raises Invalid where there is none."""
+        """The generator of the sum of a monomial over the neighbours of a node; Invalid without one."""
         for k, g in enumerate(self.table):
             if g.kind == "sum" and g.name == node and g.powers == inside:
-                self._used.add(k)
+                self._establish([k])
                 return k
         of = self.signs.printer.poly({monomial(inside): 1})
         raise Invalid(f"the table has no sum of {of[:120]} over the neighbours of {node}")
 
     def reaches(self, k: int, wanted: set[int]) -> bool:
         """Is generator k one of those wanted, or defined over one?"""
-        return k in wanted or any(self.reaches(v, wanted) for v in read_by(self.table[k], self.field))
+        return not wanted.isdisjoint(self.behind({k}))
+
+    def behind(self, generators: set[int]) -> set[int]:
+        """These generators and all that they are defined over."""
+        found = set(generators)
+        todo = list(found)
+        while todo:
+            new = read_by(self.table[todo.pop()], self.field) - found
+            found |= new
+            todo += new
+        return found
 
 
 def require_conditions(statement: Statement, needed: set[Condition]) -> None:

@@ -2,8 +2,8 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorem: if -(a - b)^2n is nonnegative, then a = b. So an equation follows from sums of squares that vanish and from
-signs: 0 = |x|^2 gives x = 0, and a^2 = b^2 with a, b >= 0 gives a = b.
+Theorem: if -(a - b)^2n is nonnegative, then a = b. So an equation follows from sums of squares that vanish
+and from signs: 0 = |x|^2 gives x = 0, and a^2 = b^2 with a, b >= 0 gives a = b.
 """
 
 from __future__ import annotations

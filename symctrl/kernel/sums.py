@@ -2,14 +2,15 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorem: a sum over the neighbours of a node of c u, where c belongs to the node and u to the neighbour, is c times
-the sum of u. So every such sum is a polynomial in generators T = sum of a monomial of the neighbour, and what vanishes
-as a polynomial in these vanishes for every graph. In an undirected graph, the sum over nodes i of c(i) T(i), with T
-the sum of u over the neighbours, is the sum over edges {i, j} of c(i) u(j) + c(j) u(i): if that is zero for generic
-distinct nodes, the sum over nodes is zero for every graph. What is given holds at every node.
+Theorem: a sum over the neighbours of a node of c u, where c belongs to the node and u to the neighbour, is
+c times the sum of u. So every such sum is a polynomial in generators T = sum of a monomial of the
+neighbour, and what vanishes as a polynomial in these vanishes for every graph. In an undirected graph, the
+sum over nodes i of c(i) T(i), with T the sum of u over the neighbours, is the sum over edges {i, j} of c(i)
+u(j) + c(j) u(i): if that is zero for generic neighbours, the sum over nodes is zero for every graph. What
+is given holds at every node.
 
-A total, the sum over all nodes, is a generator for each derivative: T, T', T'', ... The derivative of a sum is the sum
-of the derivatives of its terms.
+A total, the sum over all nodes, is a generator for each derivative: T, T', T'', ... The derivative of a sum
+is the sum of the derivatives of its terms.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.evaluation import Evaluation, Level
 from symctrl.kernel.field import Value
 from symctrl.kernel.generators import letters
-from symctrl.kernel.polynomial import Poly, monomial, powers
+from symctrl.kernel.polynomial import Poly, monomial, powers, variables
 from symctrl.kernel.replay import Replay
 
 OTHER = {"i": "j", "j": "i"}
@@ -29,7 +30,7 @@ Made = tuple[str, int, str | None]  # the name of a total, how often it is diffe
 
 
 class SymbolSums:
-    """Sums as polynomials in generators of the table. `totals` says what each total's generator stands for."""
+    """Sums as polynomials in generators. `totals` says what each total's generator stands for."""
 
     def __init__(self) -> None:
         self.replay: Replay | None = None
@@ -46,7 +47,7 @@ class SymbolSums:
 
     def _nest(self, walk: Evaluation[Any], key: str, level: int, primes: int, law: str | None) -> Level:
         if level > 0:
-            return self._nest(walk, key, level - 1, primes, law), self._nest(walk, key, level - 1, primes + 1, law)
+            return tuple(self._nest(walk, key, level - 1, primes + more, law) for more in (0, 1))
         name = key + "'" * primes
         value = walk.free(name)
         assert self.replay is not None
@@ -62,7 +63,7 @@ class SymbolSums:
         of = [letters(table, k, field) for k in range(len(table))]
         result: Value = {}
         for key, p in value.items():
-            if any(other in of[k] for f, _ in key for k in _variables(field.factors[f])):
+            if any(other in of[k] for f, _ in key for k in variables(field.factors[f])):
                 raise Declined("a sum over neighbours that divides by what belongs to the neighbour")
             summed: Poly = {}
             for m, c in p.items():
@@ -84,10 +85,6 @@ def _mapped(level_value: Level, level: int, change: Callable[[Value], Value]) ->
     return tuple(_mapped(part, level - 1, change) for part in level_value)
 
 
-def _variables(p: Poly) -> set[int]:
-    return {k for m in p for k, _ in powers(m)}
-
-
 class SumIdentity:
     """The zero test for values with sums; without totals, it is that of the field."""
 
@@ -102,7 +99,7 @@ class SumIdentity:
             return
         numerator, _ = self.field.fraction(value)
         p = self.field.normal(numerator)
-        if not _variables(p) & self.sums.totals.keys():
+        if not variables(p) & self.sums.totals.keys():
             raise Invalid(f"{where}: the sides differ by {self.replay.signs.printer.poly(p)[:300]}")
         coefficients = self._coefficients(p, where)
         ends = [self._at_node(coefficients, node) for node in ("i", "j")]
@@ -143,7 +140,7 @@ class SumIdentity:
         numerator, key = self.field.fraction(value)
         table = self.replay.table
         sums = {k for k, g in enumerate(table) if g.kind == "sum" and g.name == node}
-        hidden = {k for f, _ in key for k in _variables(self.field.factors[f])}
+        hidden = {k for f, _ in key for k in variables(self.field.factors[f])}
         edge: Poly = {}
         for m, c in self.field.normal(numerator).items():
             inside = [(k, e) for k, e in powers(m) if k in sums]

@@ -133,7 +133,8 @@ def _read(statement: Statement, proof: dict[str, Any]) -> Point:
         raise Invalid("the node and its neighbour are not joined by an edge")
     if claim.small is not None:
         raise Invalid("a claim about small values of a gain is not refuted at one value")
-    return Point(_values(statement, proof["values"], graph), graph, binding, _failure(statement, proof[which]))
+    fails = _failure(statement, proof[which])
+    return Point(_values(statement, proof["values"], graph), graph, binding, fails)
 
 
 def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Fraction]:
