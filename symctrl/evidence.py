@@ -26,7 +26,7 @@ from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.domains.opaque import NowhereDefined
 from symctrl.evaluate import Environment
 from symctrl.expr import Expr, terms
-from symctrl.problem import Problem, split
+from symctrl.problem import Meaning, Problem, split
 from symctrl.records import Rate
 from symctrl.rows import Numeric, Twins
 from symctrl.statements import Conforms, Equal
@@ -38,9 +38,9 @@ if TYPE_CHECKING:
 SAMPLES = 12
 POINTS = 4
 RATES = 2
-STEP = 1e-4
-ROUND_OFF = 1e-9
-DIFFERENCE_TOLERANCE = 1e-4
+STEP = 1e-5
+ROUND_OFF = 1e-10
+DIFFERENCE_TOLERANCE = 1e-5
 TOLERANCE = 1e-9
 
 
@@ -71,7 +71,7 @@ def _residual(problem: Problem, place: Place) -> float:
 
 
 def _rate_residual(problem: Problem, place: Place) -> float:
-    """How far the rates are from central differences, less the tolerance that these have: 0 where they agree."""
+    """How far the rates are from central differences, beyond the error that these show themselves: 0 where they agree."""
     worst = 0.0
     for name, meaning in problem.names.items():
         if meaning.is_ != "rate" or meaning.of is None:
@@ -80,14 +80,23 @@ def _rate_residual(problem: Problem, place: Place) -> float:
         at = evaluation(problem, place, here)
         binding = {"i": place.binding["i"]} if place.edges else {}
         rate = float(at.name(name.replace(".*", f".{binding.get('i', '')}", 1), 0, None))
-        ends = [
-            float(evaluation(problem, moved, FloatDomain()).output(meaning.of, binding, 0, meaning.law))
-            for moved in (_moved(problem, place, at, meaning.law, side * STEP) for side in (1, -1))
-        ]
-        scale = max(abs(rate), abs(ends[0]), float(np.max(here.largest)) * ROUND_OFF, 1.0)
-        error = abs(rate - (ends[0] - ends[1]) / (2 * STEP)) / scale
-        worst = max(worst, error if error > DIFFERENCE_TOLERANCE else 0.0)
+        coarse, fine = (_difference(problem, place, at, meaning, binding, step) for step in (STEP, STEP / 4))
+        allowed = 10 * abs(coarse - fine) + DIFFERENCE_TOLERANCE * (1 + abs(rate)) + ROUND_OFF * float(np.max(here.largest))
+        error = abs(rate - fine)
+        worst = max(worst, error / (abs(rate) + abs(fine)) if error > allowed else 0.0)
     return worst
+
+
+def _difference(
+    problem: Problem, place: Place, at: Environment, meaning: Meaning, binding: dict[str, str], step: float
+) -> float:
+    """The central difference along the motion of what a rate is the rate of."""
+    assert meaning.of is not None
+    ends = [
+        float(evaluation(problem, moved, FloatDomain()).output(meaning.of, binding, 0, meaning.law))
+        for moved in (_moved(problem, place, at, meaning.law, side * step) for side in (1, -1))
+    ]
+    return (ends[0] - ends[1]) / (2 * step)
 
 
 def _moved(problem: Problem, place: Place, at: Environment, law: str | None, step: float) -> Place:
