@@ -144,7 +144,7 @@ def verify(
     decided = runs.decide(requests, claim or None, jobs=jobs, fresh=fresh, watch=_watch)
     if certificates is not None:
         files.refuse_unwritable_folder(certificates)
-    _refuse_early(json)
+    _refuse_early(json, certificates)
     reports = []
     for study, report in decided:
         reports.append(report)
@@ -249,9 +249,10 @@ def _show(report: Report, numbered: int, *, tree: bool, strict: bool) -> None:
     table.show(report, Console(highlight=False), numbered=numbered, tree=tree, strict=strict)
 
 
-def _refuse_early(json: str | None) -> None:
-    if json not in (None, "-"):
-        files.refuse_unwritable(Path(json))
+def _refuse_early(json: str | None, to_be_made: Path | None = None) -> None:
+    if json in (None, "-") or (to_be_made and Path(json).absolute().parent == to_be_made.absolute()):
+        return
+    files.refuse_unwritable(Path(json))
 
 
 def _emit(json: str | None, answer: Any) -> None:

@@ -132,9 +132,7 @@ class Collector:
         Reach(self, wanted=self._add_motion).listing(listing)
 
     def _advice(self, hint: Hint) -> Advice:
-        """The hint as a listing beside the statement. Raises StudyError where it speaks of what the claim does
-        not.
-        """
+        """The hint as a listing beside the statement. Raises StudyError where it says more than the claim."""
         exprs = [hint.times] if hint.times is not None else []
         exprs += [*hint.squares, *(part for form in hint.forms for part in form)]
         before = set(self.listings) | set(self.scalars) | set(self.names)

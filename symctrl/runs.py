@@ -55,9 +55,10 @@ def write_certificates(report: Report, target: Path) -> None:
         if first.setdefault(path, name) != name:
             raise InputError(f"{path}: the claims {first[path]} and {name} have this one file; rename one")
     try:
+        target.mkdir(parents=True, exist_ok=True)
         for row in report.rows:
             path = paths[row.id]
-            path.parent.mkdir(parents=True, exist_ok=True)
+            path.parent.mkdir(exist_ok=True)
             if row.certificate is None:
                 path.unlink(missing_ok=True)
             else:
