@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import casadi as ca
 
+from symctrl.bounds import Bound, Hint, Statement
 from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
 from symctrl.graph import Instruction, Tape, read, unfolded
@@ -20,7 +21,7 @@ from symctrl.literals import as_sx, is_constant_name
 from symctrl.problem import ADVICE, PROVED, Advice, Assumption, Claim, Meaning, Output, Problem, split, star
 from symctrl.reach import Reach, pruned, with_motion
 from symctrl.records import Named, Rate, Record, Sum, Undefined
-from symctrl.statements import Bound, Definite, Equal, Hint, Nonzero, Statement
+from symctrl.statements import Definite, Equal, Nonzero
 from symctrl.structure import lowered
 from symctrl.written import StudyError
 

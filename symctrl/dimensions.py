@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from symctrl.decide.place import is_fleet
+from symctrl.domains.tangent import NotDifferentiable
 from symctrl.domains.units import Measured, UnitsDomain
 from symctrl.evaluate import Environment, NoRate
-from symctrl.domains.tangent import NotDifferentiable
 from symctrl.problem import Problem, split, star
 from symctrl.rows import Units
 

@@ -7,11 +7,11 @@ scales, `@` multiplies, `/` divides by a scalar, nothing is broadcast. Literals 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Literal, NoReturn, Protocol, Union, runtime_checkable
+from typing import Any, Literal, NoReturn, Protocol, Union, runtime_checkable
 
 import casadi as ca
 import numpy as np
@@ -20,10 +20,8 @@ from symctrl.entries import Entries, Shape, component_names, entries_of
 from symctrl.graph import exact_literal, unfolded
 from symctrl.indexing import selection
 from symctrl.literals import as_sx
+from symctrl.nodes import walk
 from symctrl.nonconforming import Nonconforming, mismatch, short_text, size
-
-if TYPE_CHECKING:
-    from symctrl.statements import Bound
 
 Liftable = Union["Expr", int, Fraction, str, float, list[Any], tuple[Any, ...], "np.ndarray[Any, Any]"]
 Relation = Literal[">=", "<=", ">", "<"]
@@ -140,17 +138,17 @@ class Expr:
             )
         return max(self.shape)
 
-    def __ge__(self, other: Any) -> Bound:
-        return _bound(self, ">=", other)
+    def __ge__(self, other: Any) -> Comparison:
+        return _compared(self, ">=", other)
 
-    def __le__(self, other: Any) -> Bound:
-        return _bound(self, "<=", other)
+    def __le__(self, other: Any) -> Comparison:
+        return _compared(self, "<=", other)
 
-    def __gt__(self, other: Any) -> Bound:
-        return _bound(self, ">", other)
+    def __gt__(self, other: Any) -> Comparison:
+        return _compared(self, ">", other)
 
-    def __lt__(self, other: Any) -> Bound:
-        return _bound(self, "<", other)
+    def __lt__(self, other: Any) -> Comparison:
+        return _compared(self, "<", other)
 
     def __eq__(self, other: object) -> NoReturn:
         raise TypeError("expressions are not compared with ==: write equal(a, b) for the claim")
@@ -180,6 +178,21 @@ class Expr:
 
     def __repr__(self) -> str:
         return f"<Expr {size(self)}: {short_text(self)}>"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """`left relation right` as it was written, componentwise; `symctrl.statements` makes a claim of it."""
+
+    left: Expr
+    relation: Relation
+    right: Expr
+
+    def __bool__(self) -> NoReturn:
+        raise TypeError(
+            f"the bound {short_text(self.left)} {self.relation} {short_text(self.right)} has no truth value; write two "
+            "conditions instead of a chain a <= x <= b, and a list of conditions instead of 'and'"
+        )
 
 
 def lift(x: Liftable) -> Expr:
@@ -251,22 +264,6 @@ def foreign(sx: ca.SX, text: str) -> Expr:
     elements = [dense.nz[k] for k in range(dense.nnz())]
     entries = [exact_literal(float(e)) if e.is_constant() else e for e in elements]
     return Expr("foreign", (text, tuple(entries)), _checked(dense.shape))
-
-
-def walk(expr: Expr, skip: Callable[[Expr], bool] = lambda node: False) -> Iterator[Expr]:
-    """The distinct nodes of an expression, arguments before what uses them; `skip` leaves a node and what is
-    below.
-    """
-    seen: set[Expr] = set()
-    stack: list[tuple[Expr, bool]] = [(expr, False)]
-    while stack:
-        node, ready = stack.pop()
-        if ready:
-            yield node
-        elif node not in seen and not skip(node):
-            seen.add(node)
-            stack.append((node, True))
-            stack.extend((arg, False) for arg in reversed(node.args) if isinstance(arg, Expr))
 
 
 def terms(expr: Expr) -> tuple[Expr, ...]:
@@ -376,13 +373,14 @@ def _raised(left: Liftable, right: Liftable) -> Expr:
     return Expr("power", (a, b), SCALAR)
 
 
-def _bound(left: Expr, relation: Relation, right: Liftable) -> Bound:
-    from symctrl.statements import compare
-
-    return compare(left, relation, lift(right))
+def _compared(left: Expr, relation: Relation, right: Liftable) -> Comparison:
+    other = lift(right)
+    if left.shape != other.shape and not any(x.op == "literal" and x.args[0] == 0 for x in (left, other)):
+        raise mismatch(f"comparison {relation}", left, other, "shapes are equal, or one side is 0")
+    return Comparison(left, relation, other)
 
 
 __all__ = [
-    "SCALAR", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape", "component_names",
+    "SCALAR", "Comparison", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape", "component_names",
     "deferred", "foreign", "joined", "lift", "mismatch", "scalars", "short_text", "symbol", "terms", "walk",
 ]  # fmt: skip

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
-from symctrl.expr import Expr
+from symctrl.nodes import Node
 from symctrl.printing import ATOM, LOOSE, POWER, PRODUCT, SUM, Notation, Piece, elided, render
 
 _GREEK = re.compile(
@@ -43,7 +43,7 @@ _COMMANDS = {
 _SUBSCRIPTED = re.compile(r"(.*)_\{([^{}]*)\}")
 
 
-def latex(expr: Expr) -> str:
+def latex(expr: Node) -> str:
     """The expression in LaTeX, for mathematics mode."""
     return render(expr, _NOTATION)
 
@@ -126,7 +126,7 @@ class Latex(Notation):
         body = r" \\ ".join(lines)
         return Piece(rf"\begin{{pmatrix}} {body} \end{{pmatrix}}")
 
-    def function(self, expr: Expr, args: Sequence[Piece]) -> Piece:
+    def function(self, expr: Node, args: Sequence[Piece]) -> Piece:
         shape = _SHAPES.get(expr.op)
         if shape is not None:
             return shape(self, expr, args)
@@ -151,61 +151,61 @@ def _opaque(latex: str) -> Piece:
     return Piece(latex, POWER if re.search(r"[\^']", outside) else ATOM)
 
 
-def _between(sign: str) -> Callable[[Latex, Expr, Sequence[Piece]], Piece]:
-    def shape(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _between(sign: str) -> Callable[[Latex, Node, Sequence[Piece]], Piece]:
+    def shape(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
         left, right = (notation.tight(x, POWER) for x in args)
         return Piece(f"{left} {sign} {right}", LOOSE)
 
     return shape
 
 
-def _superscript(sign: str) -> Callable[[Latex, Expr, Sequence[Piece]], Piece]:
-    def shape(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _superscript(sign: str) -> Callable[[Latex, Node, Sequence[Piece]], Piece]:
+    def shape(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
         return Piece(f"{notation.tight(args[0], ATOM)}^{{{sign}}}", POWER)
 
     return shape
 
 
-def _absolute(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _absolute(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     return Piece(rf"\left|{args[0].text}\right|")
 
 
-def _norm(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _norm(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     subscript = {"1": "_{1}", "2": "", "inf": r"_{\infty}"}[expr.args[1]]
     return Piece(rf"\left\|{args[0].text}\right\|{subscript}")
 
 
-def _sqrt(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _sqrt(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     return Piece(rf"\sqrt{{{args[0].text}}}")
 
 
-def _signed_power(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _signed_power(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     size = notation.power(_absolute(notation, expr, args), args[1]).text
     return Piece(rf"{size} \operatorname{{sgn}}{notation.bracketed(args[0].text)}", LOOSE)
 
 
-def _saturate(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _saturate(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     return Piece(rf"\operatorname{{sat}}_{{{args[1].text}}}{notation.bracketed(args[0].text)}", POWER)
 
 
-def _power(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _power(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     return notation.power(*args)
 
 
-def _eye(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _eye(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     return Piece(f"I_{{{expr.shape[0]}}}")
 
 
-def _zeros(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _zeros(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     return Piece(rf"0_{{{expr.shape[0]} \times {expr.shape[1]}}}")
 
 
-def _foreign(notation: Latex, expr: Expr, args: Sequence[Piece]) -> Piece:
+def _foreign(notation: Latex, expr: Node, args: Sequence[Piece]) -> Piece:
     escaped = re.sub(r"([_#$%&{}^~])", r"\\\1", expr.args[0])
     return Piece(rf"\mathtt{{{escaped}}}")
 
 
-_SHAPES: dict[str, Callable[[Latex, Expr, Sequence[Piece]], Piece]] = {
+_SHAPES: dict[str, Callable[[Latex, Node, Sequence[Piece]], Piece]] = {
     "kron": _between(r"\otimes"),
     "cross": _between(r"\times"),
     "dot": _between(r"\cdot"),

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from symctrl.expr import SCALAR, Expr, walk
+from symctrl.nodes import SCALAR, Node, is_node, walk
 
 SUM, LOOSE, PRODUCT, POWER, ATOM = range(5)  # LOOSE: needs brackets as a factor, none as an addend
 LARGEST_PRINTED = 8  # rows or columns of a matrix; larger ones are elided
@@ -65,7 +65,7 @@ class Notation:
     def matrix(self, rows: Sequence[Sequence[Piece]]) -> Piece:
         raise NotImplementedError
 
-    def function(self, expr: Expr, args: Sequence[Piece]) -> Piece:
+    def function(self, expr: Node, args: Sequence[Piece]) -> Piece:
         """Every other operation."""
         raise NotImplementedError
 
@@ -78,11 +78,11 @@ class Notation:
         return self.bracketed(x.text) if x.level < level else x.text
 
 
-def render(expr: Expr, notation: Notation) -> str:
+def render(expr: Node, notation: Notation) -> str:
     """The expression in a notation."""
-    pieces: dict[Expr, Piece] = {}
+    pieces: dict[Node, Piece] = {}
     for node in walk(expr):
-        args = [pieces[arg] for arg in node.args if isinstance(arg, Expr)]
+        args = [pieces[arg] for arg in node.args if is_node(arg)]
         if node.op in ("stack", "row"):
             piece = notation.matrix([[pieces[x] for x in line] for line in matrix_rows(node)])
         else:
@@ -91,7 +91,7 @@ def render(expr: Expr, notation: Notation) -> str:
     return pieces[expr].text
 
 
-def matrix_rows(expr: Expr) -> list[list[Expr]]:
+def matrix_rows(expr: Node) -> list[list[Node]]:
     """The parts of a stack or row as the lines of a matrix; parts that form no grid stay whole."""
     if expr.op == "row":
         return [list(expr.args)]
@@ -107,30 +107,30 @@ def elided(size: int) -> list[int | None]:
     return [*range(SHOWN_OF_LARGE), None, size - 1]
 
 
-def _literal(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _literal(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.literal(*node.args)
 
 
-def _symbol(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _symbol(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.symbol(node.args[0], node.args[1])
 
 
-def _deferred(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _deferred(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.deferred(node.args[0])
 
 
-def _add(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _add(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     left, right = args
     sign = "+" if node.op == "add" else "-"
     text = f"{notation.first(left, SUM)} {sign} {notation.tight(right, LOOSE)}"
     return Piece(text, SUM, left.negative)
 
 
-def _neg(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _neg(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return Piece(f"-{notation.tight(args[0], LOOSE)}", PRODUCT, negative=True)
 
 
-def _product(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _product(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     a, b = node.args
     left, right = args
     if node.op == "scale" and a.op == "matmul" and b.shape != SCALAR:
@@ -142,7 +142,7 @@ def _product(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
     return Piece(notation.product(left.text, after), PRODUCT, left.negative)
 
 
-def _keeps_together(expr: Expr) -> bool:
+def _keeps_together(expr: Node) -> bool:
     """Whether X (A B) may be printed X A B: true for a product of matrices that does not begin with k A or
     A/k.
     """
@@ -153,19 +153,19 @@ def _keeps_together(expr: Expr) -> bool:
     return expr.op not in ("scale", "divide", "neg")
 
 
-def _divide(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _divide(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.quotient(*args)
 
 
-def _power(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _power(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.power(*args) if node.shape == SCALAR else notation.function(node, args)
 
 
-def _transpose(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _transpose(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.transpose(args[0])
 
 
-def _index(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _index(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     x, rows, cols = node.args
     along = [rows] if x.shape[1] == 1 else [cols] if x.shape[0] == 1 else [rows, cols]
     sizes = [x.shape[0]] if x.shape[1] == 1 else [x.shape[1]] if x.shape[0] == 1 else list(x.shape)
@@ -182,11 +182,11 @@ def _range(positions: tuple[int, ...], size: int) -> str:
     return f"{first}:{last}" if step == 1 else f"{first}:{step}:{last}"
 
 
-def _function(notation: Notation, node: Expr, args: list[Piece]) -> Piece:
+def _function(notation: Notation, node: Node, args: list[Piece]) -> Piece:
     return notation.function(node, args)
 
 
-_RULES: dict[str, Callable[[Notation, Expr, list[Piece]], Piece]] = {
+_RULES: dict[str, Callable[[Notation, Node, list[Piece]], Piece]] = {
     "literal": _literal,
     "symbol": _symbol,
     "deferred": _deferred,

@@ -7,38 +7,15 @@ whether one holds is decided elsewhere.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import NoReturn
+from dataclasses import dataclass
 
-from symctrl.expr import SCALAR, Expr, Liftable, Relation, lift
+from symctrl.bounds import Bound as Bound
+from symctrl.bounds import Statement as Statement
+from symctrl.bounds import bound, claimed
+from symctrl.expr import SCALAR, Comparison, Expr, Liftable, lift
 from symctrl.latex import latex
 from symctrl.nonconforming import misfit, mismatch
 from symctrl.text import text
-
-_LATEX_SIGN: dict[str, str] = {">=": r"\ge", "<=": r"\le", ">": ">", "<": "<"}
-
-
-class Statement:
-    """Base of all statements."""
-
-    @property
-    def kind(self) -> str:
-        raise NotImplementedError
-
-    def latex(self) -> str:
-        raise NotImplementedError
-
-    def text(self) -> str:
-        raise NotImplementedError
-
-    def __bool__(self) -> NoReturn:
-        raise TypeError(
-            f"the claim {self.text()} has no truth value; write two conditions instead of a chain "
-            "a <= x <= b, and a list of conditions instead of 'and'"
-        )
-
-    def __repr__(self) -> str:
-        return f"<{self.kind}: {self.text()}>"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,59 +50,6 @@ class Definite(Statement):
 
     def text(self) -> str:
         return f"{text(self.matrix)} is {self.kind.replace('_', ' ')}"
-
-
-@dataclass(frozen=True, eq=False)
-class Hint:
-    """What an author knows of a proof of a bound: times * expr is a combination in which these squares and
-    forms occur.
-
-    times: known to be positive. squares: scalars whose squares occur. forms: (P, x) for terms xᵀPx with P
-    assumed definite.
-    """
-
-    times: Expr | None = None
-    squares: tuple[Expr, ...] = ()
-    forms: tuple[tuple[Expr, Expr], ...] = ()
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Bound(Statement):
-    """Every component of expr is >= 0, or > 0 if strict; printed as it was written, `left relation right`."""
-
-    expr: Expr
-    strict: bool
-    left: Expr
-    relation: Relation
-    right: Expr
-    hint: Hint | None = None
-
-    def by(
-        self,
-        times: Liftable | None = None,
-        squares: Sequence[Liftable] = (),
-        forms: Sequence[tuple[Liftable, Liftable]] = (),
-    ) -> Bound:
-        """The same claim with a hint for its proof; a hint proposes and proves nothing.
-
-        Raises Nonconforming for a form (P, x) whose shapes do not go together.
-        """
-        pairs = tuple((lift(matrix), lift(x)) for matrix, x in forms)
-        for matrix, x in pairs:
-            if matrix.shape != (x.shape[0], x.shape[0]) or x.shape[1] != 1:
-                raise mismatch("form (P, x)", matrix, x)
-        flat = tuple(entry for square in squares for entry in _components(lift(square)))
-        return replace(self, hint=Hint(None if times is None else lift(times), flat, pairs))
-
-    @property
-    def kind(self) -> str:
-        return "positive" if self.strict else "nonnegative"
-
-    def latex(self) -> str:
-        return f"{latex(self.left)} {_LATEX_SIGN[self.relation]} {latex(self.right)}"
-
-    def text(self) -> str:
-        return f"{text(self.left)} {self.relation} {text(self.right)}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -164,6 +88,7 @@ class Conforms(Statement):
 
 
 Plain = Equal | Bound | Nonzero | Definite  # what can be a hypothesis, a condition or the claim under them
+Claimable = Statement | Comparison  # what an author writes for one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -242,8 +167,9 @@ class AtValues(Statement):
         return f"{self.claim.text()} at the values of the study"
 
 
-def at_values(claim: Statement) -> AtValues:
+def at_values(claim: Statement | Comparison) -> AtValues:
     """The claim with every parameter that has an exact value replaced by it. Raises TypeError."""
+    claim = claimed(claim)
     if not isinstance(claim, Statement):
         raise TypeError(f"at_values takes a claim, not {claim!r}; write at_values(positive_definite(M))")
     return AtValues(claim)
@@ -281,12 +207,12 @@ def positive_semidefinite(M: Liftable) -> Definite:
 
 def nonnegative(x: Liftable) -> Bound:
     """The claim that every component of x is >= 0; the same as x >= 0."""
-    return compare(_lifted(x, "nonnegative"), ">=", lift(0))
+    return bound(Comparison(_lifted(x, "nonnegative"), ">=", lift(0)))
 
 
 def positive(x: Liftable) -> Bound:
     """The claim that every component of x is > 0; the same as x > 0."""
-    return compare(_lifted(x, "positive"), ">", lift(0))
+    return bound(Comparison(_lifted(x, "positive"), ">", lift(0)))
 
 
 def nonzero(x: Liftable) -> Nonzero:
@@ -300,25 +226,8 @@ def nonzero(x: Liftable) -> Nonzero:
     return Nonzero(value)
 
 
-def compare(left: Expr, relation: Relation, right: Expr) -> Bound:
-    """The claim `left relation right`, componentwise on equal shapes; either side may be the literal 0.
-
-    Raises Nonconforming.
-    """
-    larger, smaller = (left, right) if relation.startswith(">") else (right, left)
-    if _is_zero(smaller):
-        difference = larger
-    elif _is_zero(larger):
-        difference = -smaller
-    elif left.shape != right.shape:
-        raise mismatch(f"comparison {relation}", left, right, "shapes are equal, or one side is 0")
-    else:
-        difference = larger - smaller
-    return Bound(difference, not relation.endswith("="), left, relation, right)
-
-
 def implies(
-    hypotheses: Statement | Sequence[Statement], claim: Plain, by: Sequence[Liftable] = ()
+    hypotheses: Claimable | Sequence[Claimable], claim: Claimable, by: Sequence[Liftable] = ()
 ) -> Implies:
     """The claim under one hypothesis or a list of them.
 
@@ -335,7 +244,7 @@ def implies(
     return Implies(given, _plain(claim, "implies", "claim"), cofactors)
 
 
-def equivalent(conditions: Plain | Sequence[Plain], claim: Plain) -> Equivalent:
+def equivalent(conditions: Claimable | Sequence[Claimable], claim: Claimable) -> Equivalent:
     """The claim that the conditions, one or a list, hold together exactly where the claim does.
 
     Raises TypeError for anything but statements.
@@ -345,7 +254,7 @@ def equivalent(conditions: Plain | Sequence[Plain], claim: Plain) -> Equivalent:
     )
 
 
-def sufficiently_small(gain: Expr, claim: Plain) -> SufficientlySmall:
+def sufficiently_small(gain: Expr, claim: Claimable) -> SufficientlySmall:
     """The claim for every small enough positive value of a gain. Raises TypeError if gain is no scalar
     symbol.
     """
@@ -359,16 +268,9 @@ def conforms(expr: Liftable) -> Conforms:
     return Conforms(_lifted(expr, "conforms"))
 
 
-def _components(x: Expr) -> list[Expr]:
-    return [x] if x.shape == SCALAR else list(x)
-
-
-def _is_zero(x: Expr) -> bool:
-    return x.op == "literal" and x.args[0] == 0
-
-
-def _lifted(x: Liftable, what: str) -> Expr:
-    if isinstance(x, Statement):
+def _lifted(x: Liftable | Statement | Comparison, what: str) -> Expr:
+    if isinstance(x, Statement | Comparison):
+        x = claimed(x)
         raise TypeError(f"{what} is about expressions, but was given the claim {x.text()}")
     return lift(x)
 
@@ -381,6 +283,7 @@ def _square(M: Liftable, what: str) -> Expr:
 
 
 def _plain(x: object, what: str, role: str) -> Plain:
+    x = claimed(x)
     if not isinstance(x, Plain):
         given = "a bare expression" if isinstance(x, Expr) else repr(x)
         raise TypeError(

@@ -10,14 +10,14 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from symctrl.bounds import claimed
 from symctrl.context import Instance, current
 from symctrl.entries import component_names
-from symctrl.expr import Expr, Liftable, deferred, foreign, lift, symbol
+from symctrl.expr import Comparison, Expr, Liftable, deferred, foreign, lift, symbol
 from symctrl.fleet import Fleet
 from symctrl.quaternion import Quaternion
 from symctrl.records import Undefined, rate
 from symctrl.statements import Bound, Definite, Equal, Nonzero, Statement, equal
-from symctrl.vectors import stack
 from symctrl.written import Definition, Entry, Law, StudyError, enter
 
 if TYPE_CHECKING:
@@ -173,9 +173,9 @@ class Study:
 
     # Assumptions and equations
 
-    def assume(self, *claims: Statement, about: str = "parameter") -> None:
+    def assume(self, *claims: Statement | Comparison, about: str = "parameter") -> None:
         """Assumptions of the whole study. about: parameter, initial, signal or trajectory."""
-        for claim in claims:
+        for claim in claimed(claims):
             if not isinstance(claim, Equal | Bound | Definite | Nonzero):
                 raise TypeError(
                     f"an assumption is an equation, a bound, definiteness or nonzero(x), not {claim!r}"

@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from symctrl.expr import SCALAR, Expr
+from symctrl.nodes import SCALAR, Node
 from symctrl.printing import ATOM, LOOSE, POWER, PRODUCT, Notation, Piece, elided, render
 
 
-def text(expr: Expr) -> str:
+def text(expr: Node) -> str:
     """The expression in plain mathematics."""
     return render(expr, _NOTATION)
 
@@ -56,7 +56,7 @@ class PlainText(Notation):
         lines = ["..." if r is None else self._line(rows[r]) for r in elided(len(rows))]
         return Piece(f"[{'; '.join(lines)}]")
 
-    def function(self, expr: Expr, args: Sequence[Piece]) -> Piece:
+    def function(self, expr: Node, args: Sequence[Piece]) -> Piece:
         shown = [piece.text for piece in args]
         if expr.op in ("eye", "zeros"):
             shown = [str(n) for n in (expr.shape[:1] if expr.op == "eye" else expr.shape)]

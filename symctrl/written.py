@@ -9,11 +9,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol
 
+from symctrl.bounds import claimed
 from symctrl.context import current
 from symctrl.expr import Expr, Nonconforming, deferred, lift
 from symctrl.fleet import Fleet
 from symctrl.records import Named
-
 
 
 class StudyError(ValueError):
@@ -70,7 +70,7 @@ class Entry:
             raise StudyError(
                 f"{self.id}: the function returns nothing; it must return the {_product(self.form)}"
             )
-        return result
+        return claimed(result)
 
 
 def enter(

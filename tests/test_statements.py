@@ -11,10 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from symctrl.expr import Nonconforming, lift, symbol
+from symctrl.bounds import Bound, claimed
 from symctrl.statements import (
-    Bound,
     Statement,
-    compare,
     conforms,
     equal,
     equivalent,
@@ -68,6 +67,7 @@ PRINTED: list[tuple[Statement, str, str, str]] = [
 
 @pytest.mark.parametrize(("statement", "kind", "plain", "tex"), PRINTED, ids=[p[2] for p in PRINTED])
 def test_a_statement_says_what_it_is(statement: Statement, kind: str, plain: str, tex: str) -> None:
+    statement = claimed(statement)
     assert (statement.kind, statement.text(), statement.latex()) == (kind, plain, tex)
     assert plain in repr(statement)
 
@@ -80,7 +80,8 @@ def test_a_bound_is_about_the_quantity_that_is_then_nonnegative(a: Fraction, b: 
     left, right = lift(str(a)), lift(str(b))
     truths = {">=": a >= b, "<=": a <= b, ">": a > b, "<": a < b}
     bounds = {">=": left >= right, "<=": left <= right, ">": left > right, "<": left < right}
-    for relation, bound in bounds.items():
+    for relation, written in bounds.items():
+        bound = claimed(written)
         value = bound.expr.value
         assert value is not None
         assert (value > 0 if bound.strict else value >= 0) == truths[relation]
@@ -88,28 +89,28 @@ def test_a_bound_is_about_the_quantity_that_is_then_nonnegative(a: Fraction, b: 
 
 @given(RATIONALS)
 def test_a_number_on_the_left_is_turned_round(a: Fraction) -> None:
-    for bound in (a <= x, int(a) <= x, str(a) <= x):
+    for bound in map(claimed, (a <= x, int(a) <= x, str(a) <= x)):
         assert isinstance(bound, Bound)
         assert (bound.left, bound.relation, bound.strict) == (x, ">=", False)
     assert (a > x).relation == "<"
 
 
 def test_a_bound_against_zero_is_about_the_other_side_itself() -> None:
-    assert (v >= 0).expr is v
-    assert (0 <= v).expr is v  # noqa: SIM300
-    assert (v > 0).expr is v
-    assert ((v <= 0).expr.op, (v <= 0).expr.args) == ("neg", (v,))
-    assert compare(lift(0), "<", v).expr is v
+    assert claimed(v >= 0).expr is v
+    assert claimed(0 <= v).expr is v  # noqa: SIM300
+    assert claimed(v > 0).expr is v
+    assert (claimed(v <= 0).expr.op, claimed(v <= 0).expr.args) == ("neg", (v,))
+    assert claimed(lift(0) < v).expr is v
 
 
 def test_a_bound_on_equal_shapes_is_componentwise() -> None:
-    bound = v <= w
+    bound = claimed(v <= w)
     assert bound.expr.shape == (3, 1)
     assert bound.expr.args == (w, v)
 
 
 def test_implies_keeps_hypotheses_claim_and_cofactors() -> None:
-    given, claim = [equal(x, y), x > 0, equal(y, k)], equal(x, k)
+    given, claim = [equal(x, y), claimed(x > 0), equal(y, k)], equal(x, k)
     statement = implies(given, claim, by=[1, k])
     assert list(statement.hypotheses) == given
     assert statement.claim is claim

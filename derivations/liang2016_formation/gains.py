@@ -4,8 +4,8 @@ from derivations.liang2016_formation.control import stiffness
 from derivations.liang2016_formation.model import q_cross
 from derivations.liang2016_formation.rate import d
 from derivations.liang2016_formation.symbols import (
-    J,
     J_0,
+    J,
     K_o,
     K_q,
     alpha,

@@ -2,8 +2,8 @@
 
 from derivations.liang2016_formation.symbols import J, fleet, omega, q, study, u, u_bar, u_d
 from symctrl import equal
-from symctrl.statements import implies, nonnegative, positive_semidefinite, skew_symmetric
 from symctrl.quaternion import Quaternion
+from symctrl.statements import implies, nonnegative, positive_semidefinite, skew_symmetric
 from symctrl.vectors import block, cos, eye, inverse, sin, skew, stack
 
 i, j = fleet.node, fleet.neighbour

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import Any
 
-from symctrl.decide.combination import entry_of, Known
+from symctrl.decide.combination import Known, entry_of
 from symctrl.decide.definiteness import decide_matrix
 from symctrl.decide.session import Session
 from symctrl.domains.field import Exact, Poly

@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-from symctrl.decide.attempt import Attempt
 from symctrl.decide.affine import by_rows, by_sum, lowest
+from symctrl.decide.attempt import Attempt
 from symctrl.decide.combination import terms_of
 from symctrl.decide.definiteness import decide_matrix
 from symctrl.decide.place import evaluation

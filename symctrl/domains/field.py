@@ -57,7 +57,7 @@ class Field:
         self.context = flint.fmpq_mpoly_ctx.get(names, "lex")
         self.generators = [Generator("free", name) for name in self.free]
         self.index = {name: k for k, name in enumerate(self.free)}
-        self._relation_degree: dict[int, int] = {}
+        self._labels: dict[int, str] = {}
 
     def variable(self, k: int) -> Poly:
         return self.context.gen(self.size - 1 - k)
@@ -120,6 +120,35 @@ class Field:
                 for f, _ in key:
                     found |= self.occurring(self.factors[f])
         return found
+
+    def text(self, p: Poly) -> str:
+        """The polynomial in words that do not depend on the order in which generators were made."""
+        terms = []
+        for exponents, c in p.terms():
+            powers = sorted(f"{self._label(self.size - 1 - v)}^{e}" for v, e in enumerate(exponents) if e)
+            terms.append(" ".join([str(c), *powers]))
+        return " + ".join(sorted(terms))
+
+    def value_text(self, value: Exact) -> str:
+        """The value likewise."""
+        groups = [
+            (sorted((self.text(self.factors[k]), e) for k, e in key), self.text(p)) for key, p in value.items()
+        ]
+        return str(sorted(groups))
+
+    def _label(self, k: int) -> str:
+        if k not in self._labels:
+            g = self.generators[k]
+            made = [self._part_text(part) for part in (g.argument, g.exponent)]
+            self._labels[k] = g.name if g.kind == "free" else f"{g.kind}({g.name} {g.degree} {made})"
+        return self._labels[k]
+
+    def _part_text(self, part: Any) -> str:
+        if isinstance(part, tuple):
+            return str([self.value_text(value) for value in part])
+        if isinstance(part, dict):
+            return self.value_text(part)
+        return "" if part is None else self.text(part)
 
     def json(self, p: Poly) -> list[list[Any]]:
         """The POLY form of docs/certificates.md."""

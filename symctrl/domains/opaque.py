@@ -84,9 +84,11 @@ class Opaque:
         if exponent is not None:
             return self._rational_power(a, exponent)
         c, key = self._factored(a)
+        if c == 0:
+            raise Unsupported("the exact domain gives no meaning to a symbolic power of zero")
         if c < 0 or any(not self._nonnegative(self.field.factors[k]) for k, _ in key):
             whole = self._polynomial_part(a)
-            self.knowledge.learn_nonnegative(str(whole))
+            self.knowledge.learn_nonnegative(self.field.text(whole))
             return self._symbolic_power(whole, 1, b)
         result = self.domain.constant(Fraction(1))
         for base, e in self._primes(c):
@@ -117,13 +119,15 @@ class Opaque:
 
     def _rational_power(self, a: Exact, exponent: Fraction) -> Exact:
         c, key = self._factored(a)
+        if c == 0 and exponent < 0:
+            raise NowhereDefined("a division by what is zero on the whole domain")
         if c == 0:
             return self.domain.constant(Fraction(0))
         domain, known, unknown = self.domain, [], []
         for k, e in key:
             (known if self._nonnegative(self.field.factors[k]) else unknown).append((k, e))
-        if c < 0 and not unknown:
-            raise NowhereDefined("a root of what is negative on the whole domain")
+        if c < 0 and all(e % 2 == 0 for _, e in unknown):
+            self._refuse_negative(key)
         result = domain.constant(Fraction(1))
         if exponent.denominator == 2 and unknown:
             odd = [(k, 1) for k, e in unknown if e % 2]
@@ -143,7 +147,14 @@ class Opaque:
     def _learn_whole(self, c: Fraction, unknown: list[tuple[int, int]]) -> None:
         """A root is defined where its radicand is not negative: a single factor is then known not to be."""
         if len(unknown) == 1 and unknown[0][1] % 2 and c > 0:
-            self.knowledge.learn_nonnegative(str(self.field.factors[unknown[0][0]]))
+            self.knowledge.learn_nonnegative(self.field.text(self.field.factors[unknown[0][0]]))
+
+    def _refuse_negative(self, key: Key) -> None:
+        """A root of what is never positive: it has a value at most where a factor vanishes."""
+        signs = {k: self._sign(self.field.factors[k]) for k, _ in key}
+        if all(signs[k] == "positive" or (signs[k] == "nonzero" and e % 2 == 0) for k, e in key):
+            raise NowhereDefined("a root of what is negative on the whole domain")
+        raise Unsupported("the exact domain gives no meaning to a root of what is never positive")
 
     def _product(self, c: Fraction, unknown: list[tuple[int, int]]) -> Poly:
         """The factors of unknown sign, with the sign of c."""
@@ -157,7 +168,7 @@ class Opaque:
     def _root(self, base: Poly, e: int, exponent: Fraction) -> Exact:
         """base**(e*exponent) as a power of one root generator."""
         total = e * exponent
-        degree = self.knowledge.denominator(f"root {base}", total.denominator)
+        degree = self.knowledge.denominator(f"root {self.field.text(base)}", total.denominator)
         whole, part = divmod(total.numerator * (degree // total.denominator), degree)
         result = self.domain.power(self.domain.polynomial(base), whole)
         if part:
@@ -172,7 +183,7 @@ class Opaque:
             if atom is None:
                 result = self.domain.mul_(result, self._root(base, 1, total))
                 continue
-            unit = self.knowledge.denominator(f"power {base} {self._text(atom)}", total.denominator)
+            unit = self.knowledge.denominator(f"power {self.field.text(base)} {self.field.value_text(atom)}", total.denominator)
             value = self.domain.scaled(atom, Fraction(1, unit))
             g = self.generator(Generator("power", argument=base, exponent=value))
             p = self.domain.polynomial(self.field.variable(g))
@@ -260,7 +271,7 @@ class Opaque:
 
     def _unit(self, kind: str, atom: Exact | None, c: Fraction) -> tuple[Exact, int]:
         value = self.domain.constant(Fraction(1)) if atom is None else atom
-        unit = self.knowledge.denominator(f"{kind} {self._text(value)}", c.denominator)
+        unit = self.knowledge.denominator(f"{kind} {self.field.value_text(value)}", c.denominator)
         return self.domain.scaled(value, Fraction(1, unit)), unit
 
     # Generators and what is known
@@ -293,7 +304,7 @@ class Opaque:
 
     def _sign(self, f: Poly) -> str | None:
         known = self.domain.signs.of(f)
-        if known is None and str(f) in self.knowledge.nonnegative:
+        if known is None and self.knowledge.nonnegative and self.field.text(f) in self.knowledge.nonnegative:
             return "nonnegative"
         return known
 
@@ -317,9 +328,6 @@ class Opaque:
             for p in _prime_factors(n):
                 powers[p] = powers.get(p, 0) + side
         return [(p, e) for p, e in sorted(powers.items()) if e]
-
-    def _text(self, value: Exact) -> str:
-        return str(sorted((key, str(p)) for key, p in value.items()))
 
 
 def _prime_factors(n: int) -> list[int]:

@@ -2,13 +2,13 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorems: A (x) I and block diagonal matrices have the definiteness of their parts; C'PC is semidefinite with
-P, and definite if C is invertible too. A = L D L' and dominance of A - L L' are in `matrices`. Sylvester: a
-symmetric A all of whose leading principal minors are positive is definite. Gershgorin: so is one whose
-diagonal entries exceed the sums of the absolute values beside them. A sum of g P with g >= 0 and semidefinite P is
-semidefinite (Horn and Johnson, Matrix Analysis, 7.1, 7.2, 6.1). A claim about all small positive values of a
-gain, each smaller than a bound that depends on the other parameters: a polynomial in the gain has the sign of
-its lowest coefficient there.
+Theorems: A (x) I and block diagonal matrices have the definiteness of their parts; C'PC is semidefinite
+with P, and definite if C is invertible too. A = L D L' and dominance of A - L L' are in `matrices`.
+Sylvester: a symmetric A all of whose leading principal minors are positive is definite. Gershgorin: so is
+one whose diagonal entries exceed the sums of the absolute values beside them. A sum of g P with g >= 0 and
+semidefinite P is semidefinite (Horn and Johnson, Matrix Analysis, 7.1, 7.2, 6.1). A claim about all small
+positive values of a gain, each smaller than a bound that depends on the other parameters: a polynomial in
+the gain has the sign of its lowest coefficient there.
 
 The `matrix` of a proof is the claim's tree with a leaf proof in the place of each block of entries. Rows of
 `lower` go up to the diagonal.
@@ -68,7 +68,7 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     _prove_tree(test, outputs, claim.matrix, proof["matrix"], strict)
     for condition, p in replay.signs.needed.items():
         if condition.kind != "nonzero" and replay.free[claim.small] in replay.behind(variables(p)):
-            raise Declined(f"{claim.small} is bounded by the condition {condition.kind} on {condition.of[:200]}")
+            raise Declined(f"a condition bounds {claim.small}: {condition.kind} {condition.of[:200]}")
     return replay.close()
 
 
