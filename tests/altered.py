@@ -111,7 +111,7 @@ def adaptive_loop(plant=ONE, estimate=ONE, feedback=ONE, update=ONE, state=ONE, 
     return study
 
 
-def consensus(strength=ONE, own=ONE, others=ONE, fall=ONE):
+def consensus(strength=ONE, own=ONE, others=ONE, size=ONE, fall=ONE):
     """Single integrators that go where their neighbours are, on two nodes or any other graph."""
     study = Study("consensus")
     fleet = study.fleet(default="path:2")
@@ -120,17 +120,13 @@ def consensus(strength=ONE, own=ONE, others=ONE, fall=ONE):
     k = study.gain("k")
     fleet.motion(x, lambda i: u[i])
 
-    @study.definition("s")
-    def s(i):
-        return fleet.sum(j, x[i] - x[j])
-
     @study.law("law", u)
     def protocol(i):
         return -strength * k * fleet.sum(j, own * x[i] - others * x[j])
 
     @study.definition("V")
     def V():
-        return fleet.sum(i, fleet.sum(j, (x[i] - x[j]) ** 2 / 4))
+        return fleet.sum(i, size * x[i] ** 2 / 2)
 
     @study.claimed("1")
     def the_sum_is_kept():
@@ -138,9 +134,9 @@ def consensus(strength=ONE, own=ONE, others=ONE, fall=ONE):
         return equal(study.rate(fleet.sum(i, x[i]), protocol), 0)
 
     @study.claimed("2")
-    def disagreement_falls():
-        """The disagreement falls at the rate k |s|^2."""
-        return equal(study.rate(V, protocol), -fall * k * fleet.sum(i, s(i) ** 2))
+    def disagreements_count():
+        """V falls by all disagreements, each edge counted from both ends."""
+        return equal(study.rate(V, protocol), -fall * k / 2 * fleet.sum(i, fleet.sum(j, (x[i] - x[j]) ** 2)))
 
     return study
 
@@ -175,9 +171,10 @@ STUDIES = {
         "fall": {"energy_rate"},
     },
     consensus: {
-        "strength": {"disagreement_falls"},
-        "own": {"the_sum_is_kept", "disagreement_falls"},
-        "others": {"the_sum_is_kept", "disagreement_falls"},
-        "fall": {"disagreement_falls"},
+        "strength": {"disagreements_count"},
+        "own": {"the_sum_is_kept", "disagreements_count"},
+        "others": {"the_sum_is_kept", "disagreements_count"},
+        "size": {"disagreements_count"},
+        "fall": {"disagreements_count"},
     },
 }
