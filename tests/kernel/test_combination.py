@@ -128,3 +128,86 @@ def test_only_signs_are_proved_by_combinations():
     stated = statement({"kind": "equal", "shape": [1, 1]}, {"claim": program("x", "x")}, ["x"])
     with pytest.raises(Invalid, match="equal"):
         prove(stated, [["1", [], [X]]], free=["x"])
+
+
+class TestTimes:
+    """The quantity times a positive polynomial is a combination."""
+
+    square = [["1", [], [X_LESS_Y]]]  # noqa: RUF012
+
+    def prove(self, times, terms, kind="positive"):
+        """x (x - y)^2 >= 0 where x > 0."""
+        listings = {"g": program("x")}
+        stated = claim(
+            "nonnegative", ("*", ("SQ", ("-", "x", "y")), "x"), given=[assume(kind, "g")], **listings
+        )
+        proof = {
+            "kind": "combination",
+            "generators": [{"free": "x"}, {"free": "y"}],
+            "factors": [],
+            "hints": [],
+        }
+        verify(combination, stated, {**proof, "entries": [{"terms": terms, "times": times}]})
+
+    def test_a_positive_multiple(self):
+        self.prove(X, [["1", [0, 0], [X_LESS_Y]]])
+        self.prove([["3"]], [["3", [0], [X_LESS_Y]]])
+
+    @pytest.mark.parametrize("times", [[], [["-1"]], Y, [["1", 0, 1], ["-1", 1, 1]], [["1", 1, 2]], [["0"]]])
+    def test_what_is_not_known_to_be_positive(self, times):
+        for terms in ([["1", [0, 0], [X_LESS_Y]]], []):
+            with pytest.raises(Invalid):
+                self.prove(times, terms)
+
+    def test_a_multiple_that_may_be_zero_says_nothing(self):
+        with pytest.raises(Invalid, match="positive"):
+            self.prove(X, [["1", [0, 0], [X_LESS_Y]]], "nonnegative")
+
+
+class TestForms:
+    """x'Px for an assumed P is nonnegative, never certainly positive."""
+
+    names = ("x", "y", "p", "q", "r")
+    vector = [X, Y]  # noqa: RUF012
+    value = (
+        "+",
+        ("*", "p", ("SQ", "x")),
+        ("+", ("*", 2, ("*", "q", ("*", "x", "y"))), ("*", "r", ("SQ", "y"))),
+    )
+
+    def prove(self, kind="nonnegative", given="positive_semidefinite", form=None, value=value):
+        listings = {"P": program("p", "q", "q", "r")}
+        stated = claim(kind, value, scalars=self.names, given=[assume(given, "P", size=2)], **listings)
+        prove(stated, [["1", [form or {"given": 0, "vector": self.vector}], []]], free=self.names)
+
+    def test_of_an_assumed_matrix(self):
+        for given in ("positive_semidefinite", "positive_definite"):
+            self.prove(given=given)
+
+    def test_a_form_may_be_zero(self):
+        with pytest.raises(Invalid, match="certainly positive"):
+            self.prove("positive", "positive_definite")
+
+    @pytest.mark.parametrize(
+        "form",
+        [
+            {"given": 0, "vector": [Y, X]},
+            {"given": 0, "vector": [X]},
+            {"given": 0, "vector": [X, Y, Y]},
+            {"given": 0, "vector": []},
+            {"given": 1, "vector": vector},
+            {"given": -1, "vector": vector},
+            {"given": 0},
+            {"given": 0, "vector": vector, "scale": "-1"},
+        ],
+    )
+    def test_near_misses(self, form):
+        with pytest.raises(Invalid):
+            self.prove(form=form)
+
+    def test_a_number_is_no_matrix(self):
+        stated = claim(
+            "nonnegative", ("SQ", "x"), scalars=["x"], given=[assume("positive", "g")], g=program("x")
+        )
+        with pytest.raises(Invalid, match="definite"):
+            prove(stated, [["1", [{"given": 0, "vector": [X]}], []]], free=["x"])

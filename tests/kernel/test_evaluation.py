@@ -12,7 +12,7 @@ import sympy as sp
 from symctrl.kernel.certificate import Declined, Invalid, load
 from symctrl.kernel.chain import Domain
 from symctrl.kernel.evaluation import Evaluation, GraphSums, NoSums
-from tests.kernel.certificates import certificate, seal
+from tests.kernel.certificates import certificate, given, seal
 
 NAMES = "sqrt sin cos exp log tanh sinh cosh asin acos atan asinh acosh atanh sign"
 FUNCTIONS = {name.upper(): getattr(sp, name) for name in NAMES.split()} | {"FABS": sp.Abs, "POW": sp.Pow}
@@ -231,7 +231,11 @@ def test_sums_over_no_nodes_are_zero_and_unknown_nodes_are_refused():
 
 def test_a_node_must_be_bound():
     with pytest.raises(Invalid, match="not bound"):
-        loaded({"claim": "return q.j q.i"}, scalars={"q.*": "state"})
+        loaded(
+            {"claim": "return q.i a", "a": "return q.j"},
+            scalars={"q.*": "state", "a": "state"},
+            given=[given("zero", "a")],
+        )
     with pytest.raises(Invalid, match="not bound"):
         loaded(
             {"claim": "return V V", "V": "return q.i"},

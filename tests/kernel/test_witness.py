@@ -242,6 +242,27 @@ class TestFleets:
             refute(self.stated, values=self.values, graph=self.path, node=node, at=0)
 
 
+class TestNeighbours:
+    """q.i = q.j for a node and its neighbour."""
+
+    stated = statement(EQUAL, {"claim": program("q.i", "q.j")}, {"q.*": "state"})
+    path = (["1", "2"], ["2", "3"])
+    values = {"q.1": "1", "q.2": "0", "q.3": "0"}  # noqa: RUF012
+
+    def test_an_edge_refutes_it(self):
+        refute(self.stated, values=self.values, graph=self.path, node="1", neighbour="2", at=0)
+        with pytest.raises(Invalid, match="the claim holds"):
+            refute(self.stated, values=self.values, graph=self.path, node="2", neighbour="3", at=0)
+
+    @pytest.mark.parametrize(
+        "at",
+        [{"node": "1"}, {"neighbour": "2"}, *({"node": "1", "neighbour": n} for n in ("1", "3", "4", 2))],
+    )
+    def test_only_an_edge_does(self, at):
+        with pytest.raises(Invalid):
+            refute(self.stated, values=self.values, graph=self.path, at=0, **at)
+
+
 def test_a_definition_is_not_refuted_by_values():
     stated = statement({"kind": "conforms", "shape": [1, 1]}, {"claim": program("x")}, ["x"])
     with pytest.raises(Invalid, match="conforms"):
