@@ -44,6 +44,14 @@ DIFFERENCE_TOLERANCE = 1e-5
 TOLERANCE = 1e-9
 
 
+def point_known(problems: Sequence[Problem]) -> bool:
+    """Is a point known for each problem at which all its assumptions hold? If not, they may contradict each other."""
+    try:
+        return all(next(points(problem)) is not None for problem in problems)
+    except (NoPoint, Unsupported):
+        return False
+
+
 def numeric(problem: Problem) -> Numeric | None:
     """The largest relative residual of an equation over random admissible points; None where no point is found.
 

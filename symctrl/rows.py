@@ -74,6 +74,7 @@ class Row:
     numeric: Numeric | None = None
     residual: str | None = None
     settled: bool = True
+    point_known: bool = True
     finding: str | None = None
     seconds: float = 0.0
 

@@ -54,7 +54,20 @@ def settle(study: Study, rows: Sequence[Row], complete: bool) -> list[Row]:
     for row in rows:
         _stands(row.id, known, standing, conditional, complete)
     done = [replace(r, stands=standing[r.id], conditional=conditional[r.id]) for r in rows]
-    return [replace(row, settled=_settled(study, row, done, complete)) for row in done]
+    inherited = {row.id: _inherited(row.id, known, frozenset()) for row in rows}
+    return [
+        replace(row, given=inherited[row.id], settled=_settled(study, row, done, complete)) for row in done
+    ]
+
+
+def _inherited(id_: str, known: dict[str, Row], above: frozenset[str]) -> tuple[Given, ...]:
+    """The row's assumptions and, after them, those of everything that it rests on, each once."""
+    found = dict.fromkeys(known[id_].given)
+    for below in known[id_].rests_on:
+        at = below if below in known else next((k for k in known if k.partition("[")[0] == below), None)
+        if at is not None and at not in above:
+            found |= dict.fromkeys(_inherited(at, known, above | {id_}))
+    return tuple(found)
 
 
 def _stands(
@@ -64,7 +77,7 @@ def _stands(
         return
     row = known[id_]
     standing[id_], conditional[id_] = False, row.conditional
-    own = row.verdict == "proved" and all(c.by is not None for c in row.conditions)
+    own = row.verdict == "proved" and row.point_known and all(c.by is not None for c in row.conditions)
     for below in row.rests_on:
         at = below if below in known else next((k for k in known if k.partition("[")[0] == below), None)
         if at is None:

@@ -20,7 +20,7 @@ _STYLES = {"proved": "green", "refuted": "red", "ill-formed": "magenta", "undeci
 _HEADS = ("equation", "id", "form", "verdict", "stands", "time")
 _GAP = "  "
 _REASON_BESIDE = 36  # columns that a reason needs to stand beside its row and not below it
-_LONGEST_REASON = 160
+_LONGEST = 120  # of each thing said about a row; the JSON has it whole
 
 
 def show(
@@ -80,12 +80,18 @@ def _in_few_words(row: Row) -> str:
     said = [f"if {given.text}" for given in row.given if row.conditional and given.about == "trajectory"]
     said += [f"needs {condition.condition}" for condition in row.conditions if condition.by is None]
     if row.verdict != "proved" or not (row.stands or said):
-        said.append(textwrap.shorten(row.reason, _LONGEST_REASON, placeholder=" …"))
+        said.append(row.reason)
     if row.units is not None and row.units.mismatch:
         said.append(f"units: {row.units.mismatch}")
     if row.twins is not None and row.twins.still_true:
         said.append(f"twins that hold too: {', '.join(row.twins.still_true)}")
-    return " ".join("; ".join(said).split())
+    return "; ".join(map(_shortened, said))
+
+
+def _shortened(text: str) -> str:
+    """Its beginning, where it is long; a formula is cut anywhere, for it may have no blanks."""
+    flat = " ".join(text.split())
+    return flat if len(flat) <= _LONGEST else f"{flat[: _LONGEST - 2].rstrip()} …"
 
 
 def _line(texts: Sequence[str], widths: Sequence[int]) -> str:

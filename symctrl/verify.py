@@ -180,8 +180,12 @@ def _finding(entry: Entry, verdict: Verdict) -> str | None:
 
 def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
     """Twins, and floating-point residuals of an equation. Raises ToolError where these contradict the proof."""
+    problems = [part.problem for part in decided.parts]
+    if not evidence.point_known(problems):
+        reason = f"{row.reason}; no point is known at which all assumptions hold"
+        return replace(row, reason=reason, point_known=False)
     if not isinstance(decided.claim, Equal) or len(decided.parts) != 1:
-        return replace(row, twins=evidence.reversed_twins([part.problem for part in decided.parts]))
+        return replace(row, twins=evidence.reversed_twins(problems))
     found = evidence.numeric(decided.parts[0].problem)
     if found is not None and found.max_residual > evidence.TOLERANCE:
         raise ToolError(

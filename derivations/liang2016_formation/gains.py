@@ -8,6 +8,7 @@ from derivations.liang2016_formation.symbols import (
     J,
     K_o,
     K_q,
+    K_v,
     alpha,
     beta,
     fleet,
@@ -26,7 +27,7 @@ from symctrl import (
     sufficiently_small,
 )
 from symctrl.graphs import parse
-from symctrl.vectors import diagonal, eye, inverse, kron, skew, sqrt, stack
+from symctrl.vectors import diagonal, eye, inverse, kron, skew, sqrt, stack, tanh
 
 i = fleet.node
 
@@ -150,3 +151,20 @@ def K_v_smallest_is_attained():
     part = 1 / sqrt(3)
     row = (part * eye(3) + skew(stack(0, part, -part)))[0, :] / 2
     return equal(row @ (alpha * eye(3)) @ (u_bar * stack(1, 1, 1)), sqrt(3) / 2 * bound)
+
+
+tau_k = study.parameter("tau_k")  # one component of tau and of d
+d_k = study.parameter("d_k")
+
+
+@study.printed("discussion 1", reading="what keeps V falling, K_v |tau| >= d tau, with tanh in the place of sgn")
+def tanh_in_the_place_of_sgn():
+    """The hyperbolic tangent may replace the sign function."""
+    given = [K_v - d_k >= 0, K_v + d_k >= 0]
+    return implies(given, nonnegative(K_v * tanh(tau_k) * tau_k - d_k * tau_k))
+
+
+study.rejected(
+    tanh_in_the_place_of_sgn,
+    why="Near tau = 0 the disturbance is not dominated: synchronisation up to a neighbourhood is all that is left.",
+)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
-from typing import Any
 
 from symctrl.certify import certificate
 from symctrl.decide import bound, definite, equation
@@ -87,23 +86,16 @@ def _proved(problem: Problem, found: Attempt) -> Verdict:
 
 
 def _refuted(problem: Problem, found: Attempt) -> Verdict:
+    """The certificate of a refutation, which the kernel must accept."""
     assert found.witness is not None
     made = certificate(problem.statement(), found.witness.proof(problem))
-    _accepted(problem, made)
-    return Verdict(
-        Outcome.REFUTED,
-        found.witness.says,
-        "exact witness",
-        (),
-        made,
-        found.witness.values_json(problem),
-        found.residual,
-    )
-
-
-def _accepted(problem: Problem, made: Mapping[str, Any]) -> None:
     answer = check_text(json.dumps(made))
+    if answer.status == "declined":
+        reason = f"a witness was found that the kernel declines: {answer.reason}"
+        return Verdict(Outcome.UNDECIDED, reason, "exact witness")
     if answer.status != "valid":
-        raise KernelDisagrees(
-            f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}"
-        )
+        raise KernelDisagrees(f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}")
+    shown = found.witness.values_json(problem)
+    return Verdict(
+        Outcome.REFUTED, found.witness.says, "exact witness", (), made, shown, found.residual
+    )

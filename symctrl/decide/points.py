@@ -18,6 +18,7 @@ from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.problem import Assumption, Problem, split, star
 
 TRIES_PER_POINT = 60
+MOST_SHIFTS = 12
 
 
 @dataclass(frozen=True)
@@ -120,15 +121,19 @@ def _draw(
 
 
 def _number(made: Recipe, name: str, generator: random.Random, height: int, attempt: int) -> Fraction:
-    """A small rational; every other attempt a power that keeps roots rational; of any size as attempts fail."""
+    """A small rational; every other attempt a power that keeps roots rational.
+
+    As attempts fail, what is positive grows and what is not shrinks, which most bounds want.
+    """
     root = made.root if attempt % 2 == 0 else 1
     least = int(name in made.positive)
     value = Fraction(generator.randint(least, height + 1), generator.randint(1, height)) ** root
     if name not in made.positive and generator.random() < 0.5:
         value = -value
-    if attempt > 4:
-        value *= Fraction(2) ** generator.randint(-(attempt // 2), attempt // 2)
-    return value
+    shift = attempt // 4 % MOST_SHIFTS
+    if name in made.positive:
+        return value * 2 ** generator.choice((0, shift))
+    return value / 2 ** generator.choice((shift, generator.randint(0, shift)))
 
 
 def _on_sphere(count: int, generator: random.Random, height: int) -> list[Fraction]:

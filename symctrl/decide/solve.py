@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
+from symctrl.decide.definiteness import decide_matrix
 from symctrl.decide.session import Session
 from symctrl.domains.field import Poly
 from symctrl.domains.fraction import rational_root
@@ -74,6 +75,11 @@ def _solved(session: Session, zeros: list[Poly], taken: frozenset[int]) -> Itera
                 yield from _solved(session, [*zeros[:k], f, *zeros[k + 1 :]], taken)
             return
     for k, p in enumerate(zeros):
+        forms = _squares(session, p)
+        if forms is not None:
+            yield from _solved(session, [*zeros[:k], *forms, *zeros[k + 1 :]], taken)
+            return
+    for k, p in enumerate(zeros):
         solved = _linear(session, p, taken, constant=True)
         if solved is not None:
             way, generator, value = solved
@@ -100,6 +106,30 @@ def _solved(session: Session, zeros: list[Poly], taken: frozenset[int]) -> Itera
                 for more in _solved(session, rest, taken | {solved[1]}):
                     yield (solved[0], *more)
                 return
+
+
+def _squares(session: Session, p: Poly) -> list[Poly] | None:
+    """The linear forms of a quadratic form that is a sum of squares, or minus one: they vanish where it does."""
+    field = session.domain.field
+    if p.total_degree() != 2 or any(sum(map(int, e)) != 2 for e in p.monoms()):
+        return None
+    variables = sorted(field.occurring(p))
+    place = {k: n for n, k in enumerate(variables)}
+    gram = [[Fraction(0)] * len(variables) for _ in variables]
+    for exponents, c in p.terms():
+        i, j = (place[field.size - 1 - v] for v, e in enumerate(exponents) for _ in range(int(e)))
+        for a, b in ((i, j), (j, i)):
+            gram[a][b] += Fraction(int(c.p), int(c.q)) / 2
+    for side in (1, -1):
+        leaf = decide_matrix([[side * x for x in row] for row in gram]).leaf
+        if leaf is not None and "ldl" in leaf:
+            lower, diagonal = leaf["ldl"]["lower"], leaf["ldl"]["diagonal"]
+            return [
+                sum((field.variable(variables[r]) * field.polynomial(Fraction(lower[r][k])) for r in range(k, len(gram))), start=field.polynomial(0))
+                for k, d in enumerate(diagonal)
+                if Fraction(d)
+            ]
+    return None
 
 
 def _put(session: Session, p: Poly, generator: int, value: Poly) -> Poly:
