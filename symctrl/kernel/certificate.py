@@ -19,6 +19,8 @@ from math import gcd
 from typing import Any, TypeVar
 
 FORMAT = "symctrl-certificate/1"
+BUNDLE_FORMAT = "symctrl-certificates/1"
+MAX_PARTS = 1000
 MAX_TEXT = 64 * 2**20
 MAX_DIGITS = 4000
 MAX_STRING = 20_000
@@ -206,45 +208,70 @@ def digest(value: Any) -> str:
 
 
 def load(text: str) -> Certificate:
-    """The certificate that the text holds.
+    """The one certificate that the text holds; see `read_all`. Raises Invalid for a bundle."""
+    certificates = read_all(text)
+    if len(certificates) != 1:
+        raise Invalid(f"a bundle of {len(certificates)} certificates, where one is wanted")
+    return read(certificates[0])
 
-    Raises Unreadable for what is no certificate of this version, Invalid for one that is malformed, and
+
+def read_all(text: str) -> list[Any]:
+    """The JSON of the certificate that the text holds, or that of each part of a bundle.
+
+    Raises Unreadable for what is no certificate of a known version, Invalid for one that is malformed, and
     Declined for one that exceeds a size limit.
     """
+    top = _parse(text)
+    if type(top) is not dict or top.get("format") != BUNDLE_FORMAT:
+        return [top]
+    fields(top, ("format", "tool", "parts", "sha256"), "the bundle")
+    _require_digest(top, "the bundle")
+    text_field(top["tool"], "tool")
+    parts = typed(top["parts"], list, "parts")
+    if not parts:
+        raise Invalid("the bundle has no parts")
+    if len(parts) > MAX_PARTS:
+        raise Declined(f"a bundle of more than {MAX_PARTS} parts")
+    return parts
+
+
+def read(value: Any) -> Certificate:
+    """A certificate from its JSON. Raises as `read_all` does."""
     from symctrl.kernel.closure import require_closed  # both need the types of this file
     from symctrl.kernel.form import read_statement
 
-    top = _parse(text)
-    fields(top, ("format", "tool", "statement", "proof", "sha256"), "the certificate")
-    rest = {key: value for key, value in top.items() if key != "sha256"}
-    if top["sha256"] != digest(rest):
-        raise Invalid("the sha256 of the certificate is not that of its content")
+    version = value.get("format") if type(value) is dict else None
+    if version != FORMAT:
+        raise Unreadable(f"its format is {str(version)[:60]!r}, and only {FORMAT!r} is known")
+    top = fields(value, ("format", "tool", "statement", "proof", "sha256"), "the certificate")
+    _require_digest(top, "the certificate")
     statement = read_statement(top["statement"])
     require_closed(statement)
     proof = typed(top["proof"], dict, "proof")
     return Certificate(text_field(top["tool"], "tool"), statement, proof)
 
 
-def _parse(text: str) -> dict[str, Any]:
+def _require_digest(top: dict[str, Any], what: str) -> None:
+    if top["sha256"] != digest({key: value for key, value in top.items() if key != "sha256"}):
+        raise Invalid(f"the sha256 of {what} is not that of its content")
+
+
+def _parse(text: str) -> Any:
     if len(text) > MAX_TEXT:
         raise Declined(f"the certificate is longer than {MAX_TEXT} characters")
     try:
-        top = json.loads(
+        text.encode()
+        return json.loads(
             text,
             object_pairs_hook=_object,
             parse_int=_integer,
             parse_float=_no_float,
             parse_constant=_no_constant,
         )
-        text.encode()
     except (json.JSONDecodeError, UnicodeError) as error:
         raise Unreadable(f"not JSON: {str(error)[:200]}") from None
     except RecursionError:
         raise Declined("the certificate is nested too deeply") from None
-    version = top.get("format") if type(top) is dict else None
-    if version != FORMAT:
-        raise Unreadable(f"its format is {str(version)[:60]!r}, and only {FORMAT!r} is known")
-    return typed(top, dict, "the certificate")
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

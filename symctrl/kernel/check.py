@@ -8,12 +8,23 @@ checked, never from words that the certificate brings without quoting them as su
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
-from symctrl.kernel.certificate import MAX_TEXT, Certificate, Condition, Declined, Invalid, Unreadable, load
+from symctrl.kernel.certificate import (
+    MAX_TEXT,
+    Certificate,
+    Condition,
+    Declined,
+    Invalid,
+    Unreadable,
+    load,
+    read,
+    read_all,
+)
 from symctrl.kernel.printing import line, print_statement
 
 # The module that verifies each kind of proof, by `verify(statement, proof)`.
@@ -25,8 +36,6 @@ PROOFS = {
     "witness": "symctrl.kernel.witness",
     "squeeze": "symctrl.kernel.squeeze",
 }
-BUNDLE_FORMAT = "symctrl-certificates/1"
-MAX_PARTS = 1000
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
 
@@ -41,25 +50,48 @@ class Answer:
 
 
 def check_text(text: str) -> Answer:
-    """Decide a certificate. No input makes it raise."""
-    statement = ""
+    """Decide a certificate, or a bundle: it is valid if every part is. No input makes it raise."""
+    return _attempt(_decide_all, text)
+
+
+def _decide_all(text: str) -> Answer:
+    answers = [_attempt(_decide, part) for part in read_all(text)]
+    return answers[0] if len(answers) == 1 else _together(answers)
+
+
+def _attempt(work: Callable[[Any], Answer], about: Any) -> Answer:
+    """The answer of the work, or the one that its exception amounts to."""
     try:
-        certificate = load(text)
-        statement = print_statement(certificate.statement, refuted=certificate.proof.get("kind") == "witness")
-        reason = _verify(certificate)
-        return Answer("valid", statement, reason)
+        return work(about)
     except Unreadable as error:
-        return Answer("unreadable", statement, line(str(error)))
+        return Answer("unreadable", "", line(str(error)))
     except Invalid as error:
-        return Answer("invalid", statement, line(str(error)))
+        return Answer("invalid", "", line(str(error)))
     except Declined as error:
-        return Answer("declined", statement, line(str(error)))
+        return Answer("declined", "", line(str(error)))
     except (RecursionError, MemoryError) as error:
-        return Answer(
-            "declined", statement, f"the check exceeds the limits of this machine: {type(error).__name__}"
-        )
+        reason = f"the check exceeds the limits of this machine: {type(error).__name__}"
+        return Answer("declined", "", reason)
     except Exception as error:
-        return Answer("declined", statement, line(f"the kernel failed: {type(error).__name__}: {error}"))
+        return Answer("declined", "", line(f"the kernel failed: {type(error).__name__}: {error}"))
+
+
+def _decide(part: Any) -> Answer:
+    certificate = read(part)
+    statement = print_statement(certificate.statement, refuted=certificate.proof.get("kind") == "witness")
+    done = _attempt(_verify, certificate)
+    return Answer(done.status, statement, done.reason)
+
+
+def _together(parts: Sequence[Answer]) -> Answer:
+    """The worst part counts; the statements one after another."""
+    texts = [f"part {k} of {len(parts)}: {part.statement}" for k, part in enumerate(parts, start=1)]
+    worst = min(parts, key=lambda part: SEVERITY.index(part.status))
+    if worst.status == "valid":
+        reasons = ", ".join(dict.fromkeys(part.reason for part in parts))
+        return Answer("valid", "\n".join(texts), f"{len(parts)} parts, {reasons}")
+    reason = f"part {parts.index(worst) + 1} of {len(parts)}: {worst.reason}"
+    return Answer(worst.status, "\n".join(texts), reason)
 
 
 def needed_conditions(text: str) -> list[Condition]:
@@ -68,17 +100,20 @@ def needed_conditions(text: str) -> list[Condition]:
     Raises Unreadable, Invalid or Declined where the proof is none.
     """
     certificate = load(text)
-    module = import_module(PROOFS[str(certificate.proof.get("kind"))])
-    needed = module.needed_conditions(certificate.statement, certificate.proof)
+    needed = _rules(certificate).needed_conditions(certificate.statement, certificate.proof)
     return sorted(needed, key=lambda condition: (condition.kind, condition.of))
 
 
-def _verify(certificate: Certificate) -> str:
+def _verify(certificate: Certificate) -> Answer:
+    _rules(certificate).verify(certificate.statement, certificate.proof)
+    return Answer("valid", "", f"verified by its {certificate.proof['kind']}")
+
+
+def _rules(certificate: Certificate) -> Any:
     kind = certificate.proof.get("kind")
     if not isinstance(kind, str) or kind not in PROOFS:
         raise Declined(f"a proof of the kind {str(kind)[:60]!r} is not known")
-    import_module(PROOFS[kind]).verify(certificate.statement, certificate.proof)
-    return f"verified by its {kind}"
+    return import_module(PROOFS[kind])
 
 
 def check_file(path: str | Path) -> Answer:

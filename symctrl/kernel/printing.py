@@ -8,7 +8,8 @@ its digest. Words that the certificate brings are marked as such and cannot brea
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from typing import Any
 
 from symctrl.kernel.certificate import Listing, Meaning, Ref, Statement
 
@@ -35,7 +36,7 @@ class _Printer:
     def lines(self, refuted: bool) -> Iterator[str]:
         s = self.statement
         yield f'statement {line(s.id)} of {line(s.study)}, in the words of the certificate: "{line(s.text)}"'
-        yield ("it is false that " if refuted else "") + self.claim()
+        yield ("it is false that wherever what is given holds, " if refuted else "") + self.claim()
         for given in s.given:
             of = ", ".join(map(self.formula, given.of))
             about = f" (about {line(given.about)})" if given.about else ""
@@ -54,14 +55,20 @@ class _Printer:
 
     def claim(self) -> str:
         claim = self.statement.claim
-        count = len(self.statement.listings[claim.listing].outputs)
-        outputs = [self.formula((claim.listing, k)) for k in range(count)]
-        size = f"{claim.shape[0]}x{claim.shape[1]}"
+        listing = self.statement.listings[claim.listing]
+        outputs = [self.formula((claim.listing, k)) for k in range(len(listing.outputs))]
+        size = f"claim ({claim.shape[0]}x{claim.shape[1]}): "
+        if claim.small is not None:
+            size = (
+                f"for all positive {claim.small} below a bound that depends on the other parameters, {size}"
+            )
+        if listing.letters:
+            size = f"for every {'node i' + (' and neighbour j' if 'j' in listing.letters else '')}, {size}"
         if claim.kind == "equal":
-            left, right = outputs[: count // 2], outputs[count // 2 :]
-            return f"claim ({size}): [{'; '.join(left)}] = [{'; '.join(right)}]"
-        tree = f" with entries {claim.matrix}" if claim.matrix is not None else ""
-        return f"claim ({size}): [{'; '.join(outputs)}] {claim.kind.replace('_', ' ')}{tree}"
+            half = len(outputs) // 2
+            return f"{size}[{'; '.join(outputs[:half])}] = [{'; '.join(outputs[half:])}]"
+        of = "; ".join(outputs) if claim.matrix is None else _matrix(claim.matrix, outputs)
+        return f"{size}[{of}] {claim.kind.replace('_', ' ')}"
 
     def meaning(self, meaning: Meaning) -> str:
         if meaning.kind == "constant":
@@ -81,6 +88,21 @@ class _Printer:
             self.texts[ref[0]] = _read_back(listing)
         long = f"output {ref[1]} of {line(ref[0])} (sha256 {listing.sha256})"
         return self.texts[ref[0]].get(listing.outputs[ref[1]], long)
+
+
+def _matrix(tree: Any, outputs: Sequence[str]) -> str:
+    """A tree of blocks as text: rows of entries, A (x) I_n, diag(A, B), or C' A C with C in rows."""
+    if "entries" in tree:
+        return _rows(tree["entries"], outputs)
+    if "kron_identity" in tree:
+        return f"{_matrix(tree['kron_identity'], outputs)} (x) I_{tree['size']}"
+    if "congruence" in tree:
+        return f"C' {_matrix(tree['congruence'], outputs)} C with C = {_rows(tree['factor'], outputs)}"
+    return f"diag({', '.join(_matrix(block, outputs) for block in tree['blocks'])})"
+
+
+def _rows(rows: Sequence[Sequence[int]], outputs: Sequence[str]) -> str:
+    return f"({'; '.join(', '.join(outputs[k] for k in row) for row in rows)})"
 
 
 def _read_back(listing: Listing) -> dict[int, str]:

@@ -294,3 +294,63 @@ def test_words_cannot_break_out_of_their_line():
     assert answer.status == "valid"
     assert answer.statement.splitlines()[0].startswith("statement one")
     assert sum(part.startswith("claim") for part in answer.statement.splitlines()) == 1
+
+
+def bundle(*parts):
+    body = {"format": "symctrl-certificates/1", "tool": "tests", "parts": list(parts)}
+    return {**body, "sha256": digest(body)}
+
+
+class TestBundles:
+    bad = changed("proof", "generators", to=[])
+
+    def test_all_parts_count(self):
+        answer = check_text(json.dumps(bundle(GOOD, GOOD)))
+        assert answer.status == "valid"
+        assert answer.statement.count("a small claim") == 2
+        assert "part 2 of 2" in answer.statement
+
+    def test_the_worst_part_counts(self):
+        declined = changed("proof", "kind", to="magic")
+        for parts, worst in (
+            ((GOOD, self.bad), "invalid"),
+            ((GOOD, declined), "declined"),
+            ((declined, self.bad, GOOD), "invalid"),
+            ((self.bad, {**GOOD, "format": "symctrl-certificate/2"}), "unreadable"),
+            ((GOOD, None), "unreadable"),
+            ((GOOD, bundle(GOOD)), "unreadable"),
+            ((), "invalid"),
+            ((GOOD,) * 1001, "declined"),
+        ):
+            assert status(bundle(*parts)) == worst
+
+    def test_its_fields_are_strict(self):
+        good = bundle(GOOD)
+        assert status(good) == "valid"
+        for wrong in (
+            {**good, "sha256": GOOD["sha256"]},
+            {**good, "tool": "another"},
+            {**good, "more": 1},
+            {key: value for key, value in good.items() if key != "tool"},
+            {**good, "parts": {"1": GOOD}},
+            {**good, "parts": [GOOD, GOOD]},
+        ):
+            assert status(wrong) == "invalid"
+        assert status({**good, "format": "symctrl-certificates/2"}) == "unreadable"
+
+
+def test_the_print_says_how_a_gain_is_meant():
+    """A claim about small values must not read as one about all."""
+    leaf = {"minors": [{"terms": [["1", [], []]]}]}
+    small = certificate(
+        {"claim": "return 1 b"},
+        {"kind": "definite", "generators": free("b"), "matrix": {"blocks": [leaf, leaf]}},
+        scalars={"b": "parameter"},
+        claim={"kind": "positive_definite", "matrix": {"blocks": [{"entries": [[0]]}, {"entries": [[1]]}]},
+               "listing": "claim", "small": "b"},
+        conditions=[],
+    )  # fmt: skip
+    answer = check_text(json.dumps(small))
+    assert answer.status == "valid"
+    assert "for all positive b below a bound" in answer.statement
+    assert "diag((1), (b)) positive definite" in answer.statement.replace("[", "").replace("]", "")
