@@ -1,4 +1,4 @@
-"""Bounds as claims: every component of an expression is nonnegative, or positive; and what all statements are."""
+"""Bounds as claims: every component is nonnegative, or positive; and what all statements are."""
 
 from __future__ import annotations
 

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 class Decided:
     """A claim with its problems and verdict.
 
-    claim: what the function returned, None where it does not conform. using: the claims of the statements that it uses.
-    of_graph: the claim speaks of the instance's graph.
+    claim: what the function returned, None where it does not conform. using: the claims of the statements
+    that it uses. of_graph: the claim speaks of the instance's graph.
     """
 
     claim: Any
@@ -57,7 +57,9 @@ def is_named(study: Study, id_: str) -> bool:
     return study.entries[id_].form in ("definition", "law")
 
 
-def with_corrections(study: Study, entry: Entry, reading: str | None, store: Store | None, printed: Decided) -> Decided:
+def with_corrections(
+    study: Study, entry: Entry, reading: str | None, store: Store | None, printed: Decided
+) -> Decided:
     """A printed claim that fails, decided again with the corrected definitions: is it wrong by itself?"""
     again = decide(study, entry, reading, store, "corrected")
     if _same(printed, again):

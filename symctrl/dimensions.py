@@ -1,4 +1,4 @@
-"""Units of a claim, judged beside its verdict: consistent, with the units that the equations force, or the first mismatch."""
+"""Units of a claim, judged beside its verdict: those that the equations force, or the first mismatch."""
 
 from __future__ import annotations
 

@@ -45,7 +45,7 @@ TOLERANCE = 1e-9
 
 
 def point_known(problems: Sequence[Problem]) -> bool:
-    """Is a point known for each problem at which all its assumptions hold? If not, they may contradict each other."""
+    """Is a point known for each problem at which all its assumptions hold? Else they may contradict."""
     try:
         return all(next(points(problem)) is not None for problem in problems)
     except (NoPoint, Unsupported):
@@ -53,14 +53,16 @@ def point_known(problems: Sequence[Problem]) -> bool:
 
 
 def numeric(problem: Problem) -> Numeric | None:
-    """The largest relative residual of an equation over random admissible points; None where no point is found.
+    """The largest relative residual of an equation at random admissible points; None where none is found.
 
     Beside left minus right, each rate is compared with a central difference along the motion.
     """
     worst, count = 0.0, 0
     try:
         for place in islice(points(problem, seed=2), SAMPLES):
-            residual = max(_residual(problem, place), _rate_residual(problem, place) if count < RATES else 0.0)
+            residual = max(
+                _residual(problem, place), _rate_residual(problem, place) if count < RATES else 0.0
+            )
             if np.isfinite(residual):
                 worst = max(worst, residual)
                 count += 1
@@ -79,7 +81,7 @@ def _residual(problem: Problem, place: Place) -> float:
 
 
 def _rate_residual(problem: Problem, place: Place) -> float:
-    """How far the rates are from central differences, beyond the error that these show themselves: 0 where they agree."""
+    """How far the rates are from central differences, beyond the error that these show: 0 if they agree."""
     worst = 0.0
     for name, meaning in problem.names.items():
         if meaning.is_ != "rate" or meaning.of is None:
@@ -89,7 +91,11 @@ def _rate_residual(problem: Problem, place: Place) -> float:
         binding = {"i": place.binding["i"]} if place.edges else {}
         rate = float(at.name(name.replace(".*", f".{binding.get('i', '')}", 1), 0, None))
         coarse, fine = (_difference(problem, place, at, meaning, binding, step) for step in (STEP, STEP / 4))
-        allowed = 10 * abs(coarse - fine) + DIFFERENCE_TOLERANCE * (1 + abs(rate)) + ROUND_OFF * float(np.max(here.largest))
+        allowed = (
+            10 * abs(coarse - fine)
+            + DIFFERENCE_TOLERANCE * (1 + abs(rate))
+            + ROUND_OFF * float(np.max(here.largest))
+        )
         error = abs(rate - fine)
         worst = max(worst, error / (abs(rate) + abs(fine)) if error > allowed else 0.0)
     return worst

@@ -190,8 +190,8 @@ class Comparison:
 
     def __bool__(self) -> NoReturn:
         raise TypeError(
-            f"the bound {short_text(self.left)} {self.relation} {short_text(self.right)} has no truth value; write two "
-            "conditions instead of a chain a <= x <= b, and a list of conditions instead of 'and'"
+            f"the bound {short_text(self.left)} {self.relation} {short_text(self.right)} has no truth value; "
+            "write two conditions instead of a chain a <= x <= b, and a list of conditions instead of 'and'"
         )
 
 
@@ -381,6 +381,7 @@ def _compared(left: Expr, relation: Relation, right: Liftable) -> Comparison:
 
 
 __all__ = [
-    "SCALAR", "Comparison", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape", "component_names",
-    "deferred", "foreign", "joined", "lift", "mismatch", "scalars", "short_text", "symbol", "terms", "walk",
+    "SCALAR", "Comparison", "Expr", "Liftable", "Nonconforming", "Record", "Relation", "Shape",
+    "component_names", "deferred", "foreign", "joined", "lift", "mismatch", "scalars", "short_text",
+    "symbol", "terms", "walk",
 ]  # fmt: skip

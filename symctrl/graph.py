@@ -22,7 +22,7 @@ from typing import Any, Protocol, TypeVar
 import casadi as ca
 
 Value = TypeVar("Value")
-Meant = TypeVar("Meant", covariant=True)
+Meant_co = TypeVar("Meant_co", covariant=True)
 
 # Every scalar opcode that a CasADi SX function can hold and that has a meaning in at least one domain,
 # with its number of arguments.
@@ -43,11 +43,11 @@ _OPCODE_NAMES = {getattr(ca, name): name[3:] for name in dir(ca) if name.startsw
 MAX_LITERAL_DIGITS = 10
 
 
-class Operations(Protocol[Meant]):
+class Operations(Protocol[Meant_co]):
     """What the walk needs of a domain (symctrl.domains.domain)."""
 
-    def operation(self, op: str) -> Callable[..., Meant]: ...
-    def constant(self, value: Fraction) -> Meant: ...
+    def operation(self, op: str) -> Callable[..., Meant_co]: ...
+    def constant(self, value: Fraction) -> Meant_co: ...
 
 
 class GraphError(ValueError):

@@ -1,4 +1,4 @@
-"""What the printers need of an expression: a node with an operation, arguments and a shape, and the walk over nodes."""
+"""What the printers need of an expression: nodes with operation, arguments and shape; the walk over them."""
 
 from __future__ import annotations
 

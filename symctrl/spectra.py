@@ -1,7 +1,7 @@
 """The largest eigenvalue of a symmetric rational matrix, between two rationals, with exact evidence for both.
 
-A floating-point eigenvalue proposes; the upper bound is one because c I - A is positive semidefinite by an exact
-certificate, the lower bound because x'Ax >= c x'x for a rational vector.
+A floating-point eigenvalue proposes; the upper bound is one because c I - A is positive semidefinite by an
+exact certificate, the lower bound because x'Ax >= c x'x for a rational vector.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Rows = Sequence[Sequence[Fraction | int]]
 
 @dataclass(frozen=True)
 class LargestEigenvalue:
-    """low <= the largest eigenvalue <= high, equal where it is an integer; vector: rational, x'Ax >= low x'x."""
+    """low <= largest eigenvalue <= high, equal where it is an integer; vector: rational, x'Ax >= low x'x."""
 
     low: Fraction
     high: Fraction
@@ -30,7 +30,7 @@ class LargestEigenvalue:
 
 
 def largest_eigenvalue(rows: Rows) -> LargestEigenvalue:
-    """Bounds of the largest eigenvalue, at most about 2e-6 apart. Raises ValueError for a matrix that is not symmetric."""
+    """Bounds of the largest eigenvalue, some 2e-6 apart. Raises ValueError for a matrix not symmetric."""
     exact = [[Fraction(entry) for entry in row] for row in rows]
     if exact != [list(column) for column in zip(*exact, strict=True)]:
         raise ValueError("the largest eigenvalue is that of a symmetric matrix; this one is not symmetric")

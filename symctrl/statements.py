@@ -9,9 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from symctrl.bounds import Bound as Bound
-from symctrl.bounds import Statement as Statement
-from symctrl.bounds import bound, claimed
+from symctrl.bounds import Bound, Statement, bound, claimed
 from symctrl.expr import SCALAR, Comparison, Expr, Liftable, lift
 from symctrl.latex import latex
 from symctrl.nonconforming import misfit, mismatch
@@ -270,8 +268,7 @@ def conforms(expr: Liftable) -> Conforms:
 
 def _lifted(x: Liftable | Statement | Comparison, what: str) -> Expr:
     if isinstance(x, Statement | Comparison):
-        x = claimed(x)
-        raise TypeError(f"{what} is about expressions, but was given the claim {x.text()}")
+        raise TypeError(f"{what} is about expressions, but was given the claim {claimed(x).text()}")
     return lift(x)
 
 

@@ -10,14 +10,14 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from symctrl.bounds import claimed
+from symctrl.bounds import Bound, Statement, claimed
 from symctrl.context import Instance, current
 from symctrl.entries import component_names
 from symctrl.expr import Comparison, Expr, Liftable, deferred, foreign, lift, symbol
 from symctrl.fleet import Fleet
 from symctrl.quaternion import Quaternion
 from symctrl.records import Undefined, rate
-from symctrl.statements import Bound, Definite, Equal, Nonzero, Statement, equal
+from symctrl.statements import Definite, Equal, Nonzero, equal
 from symctrl.written import Definition, Entry, Law, StudyError, enter
 
 if TYPE_CHECKING:

@@ -20,7 +20,7 @@ _STYLES = {"proved": "green", "refuted": "red", "ill-formed": "magenta", "undeci
 _HEADS = ("equation", "id", "form", "verdict", "stands", "time")
 _GAP = "  "
 _REASON_BESIDE = 36  # columns that a reason needs to stand beside its row and not below it
-_LONGEST = 120  # of each thing said about a row; the JSON has it whole
+_LONGEST = 160  # of each thing said about a row; the JSON has it whole
 
 
 def show(

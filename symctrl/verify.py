@@ -9,6 +9,7 @@ from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from symctrl import evidence, standing
+from symctrl.bounds import Statement
 from symctrl.context import within
 from symctrl.decide.claims import Part
 from symctrl.deciding import Decided, decide, is_named, with_corrections
@@ -17,7 +18,7 @@ from symctrl.inputs import inputs_digest
 from symctrl.latex import latex
 from symctrl.problem import PROVED
 from symctrl.rows import Given, Report, Row
-from symctrl.statements import Conforms, Equal, Statement
+from symctrl.statements import Conforms, Equal
 from symctrl.verdict import Outcome, Verdict
 from symctrl.written import Entry, StudyError
 
@@ -151,7 +152,7 @@ def _given(found: tuple[Part, ...]) -> tuple[Given, ...]:
 
 
 def _holds_for(study: Study, decided: Decided) -> str:
-    """All graphs and values, or the instance's graph and the study's values where the claim is about these."""
+    """All graphs and values, or the instance's graph and the study's values if the claim is about these."""
     about = [str(study.graph)] if decided.of_graph else []
     about += ["the values of the study"] if decided.at_values else []
     return ", ".join(about) or "all"
@@ -179,7 +180,7 @@ def _finding(entry: Entry, verdict: Verdict) -> str | None:
 
 
 def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
-    """Twins, and floating-point residuals of an equation. Raises ToolError where these contradict the proof."""
+    """Twins, and floating-point residuals of an equation. Raises ToolError if these contradict the proof."""
     problems = [part.problem for part in decided.parts]
     if not evidence.point_known(problems):
         reason = f"{row.reason}; no point is known at which all assumptions hold"

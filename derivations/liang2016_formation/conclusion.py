@@ -4,7 +4,7 @@ from derivations.liang2016_formation.control import e, s, tau
 from derivations.liang2016_formation.model import dq, product
 from derivations.liang2016_formation.rate import de
 from derivations.liang2016_formation.symbols import beta, fleet, omega, q, study
-from symctrl import equal
+from symctrl import equal, nonnegative
 from symctrl.statements import implies
 from symctrl.vectors import stack
 
@@ -58,7 +58,7 @@ def equal_vectors_give_equal_attitude():
 )
 def equal_vectors_and_signs_give_equal_attitude():
     """If the vector parts are equal and no scalar part is negative, the quaternions are equal."""
-    given = [equal(q_a.vector, q_b.vector), q_a.scalar >= 0, q_b.scalar >= 0]
+    given = [equal(q_a.vector, q_b.vector), nonnegative(q_a.scalar), nonnegative(q_b.scalar)]
     return implies(given, equal(q_a.scalar, q_b.scalar))
 
 

@@ -34,7 +34,7 @@ INITIAL = [
     (["0.15", "-0.44", "-0.32"], ["-0.3", "0.2", "0.6"]),
 ]
 
-# Not in the paper: the Earth's gravitational parameter and equatorial radius; the altitude is the paper's 400 km.
+# Not in the paper: the Earth's gravitational parameter and equatorial radius; its altitude is 400 km.
 MU, RADIUS = Fraction("3.986004418e14"), Fraction("6378137") + 400000
 
 
@@ -63,15 +63,23 @@ alpha_g = study.gain("alpha_g", unit="kg*m^2")  # alpha_max of the inertia, or m
 study.assume(positive_semidefinite(alpha_g * eye(3) - J_g))
 
 
-@study.printed("section 3", reading="the torque of the text times |R|^5 / (3 mu), each component, is at most alpha_max |R|^2")
+@study.printed(
+    "section 3",
+    reading="the torque of the text times |R|^5 / (3 mu), each component, is at most alpha_max |R|^2",
+)
 def gravity_gradient_bound():
-    """No component of R x J R exceeds alpha_max(J) |R|^2, as the size of the disturbance in section 3 takes it."""
+    """No component of R x J R exceeds alpha_max(J) |R|^2, as the disturbance in section 3 takes it."""
     claims = []
     for k in range(3):
         axis = [1 if n == k else 0 for n in range(3)]
         turned = skew(stack(*axis)) @ R  # (R x J R)_k = -turned'J R
         torque = (skew(R) @ J_g @ R)[k]
-        forms = [(J_g, R + turned), (J_g, R - turned), (alpha_g * eye(3) - J_g, R), (alpha_g * eye(3) - J_g, turned)]
+        forms = [
+            (J_g, R + turned),
+            (J_g, R - turned),
+            (alpha_g * eye(3) - J_g, R),
+            (alpha_g * eye(3) - J_g, turned),
+        ]
         for side in (torque, -torque):
             claims.append(nonnegative(alpha_g * R.T @ R - side).by(forms=forms))
     return claims

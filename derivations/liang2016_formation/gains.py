@@ -50,8 +50,8 @@ def Pi_definite_for_small_beta():
     "section 3",
     readings=GRAPHS,
     finding={
-        "refuted": "With the paper's gains the proof does not cover this formation: beta lambda_max(L) exceeds "
-        "K_o, and K_o must grow or beta shrink before these gains are used on it."
+        "refuted": "With the paper's gains the proof does not cover this formation: beta lambda_max(L) "
+        "exceeds K_o, and K_o must grow or beta shrink before these gains are used on it."
     },
 )
 def Pi_definite_at_the_gains(graph):
@@ -77,7 +77,7 @@ def Pi_not_definite_below(graph):
 
 @study.claimed("before (5)", readings=GRAPHS)
 def V_nonnegative_if(graph):
-    """V is nonnegative if K_q + beta K_o is at least beta^2 times an upper bound of the largest eigenvalue."""
+    """V is nonnegative if K_q + beta K_o is at least beta^2 times a bound of the largest eigenvalue."""
     upper = fleet.largest_eigenvalue(graph).high
     incidence = fleet.incidence(graph)
     edges = incidence.T @ incidence
@@ -129,7 +129,11 @@ def assumed():
 STEPS = [row_of_Q_inverse, acceleration_bound, disturbance_norm, disturbance_in_d]
 
 
-@study.printed("before (6)", reading="component by component, with K_v = u_bar alpha_max of the inverse of J", using=STEPS)
+@study.printed(
+    "before (6)",
+    reading="component by component, with K_v = u_bar alpha_max of the inverse of J",
+    using=STEPS,
+)
 def K_v_is_enough():
     """With K_v = u_bar alpha no component of K_v - A^-1 Q'u_d is negative."""
     claim = nonnegative(bound - a.T @ w).by(times=6 * bound, squares=[3 * bound * a - w])
@@ -147,7 +151,7 @@ def K_v_smallest():
 
 @study.claimed("before (6)")
 def K_v_smallest_is_attained():
-    """At J = I/alpha, one attitude and one torque reach (sqrt(3)/2) u_bar alpha: no smaller constant will do."""
+    """At J = I/alpha one attitude and torque reach (sqrt(3)/2) u_bar alpha: no smaller constant will do."""
     part = 1 / sqrt(3)
     row = (part * eye(3) + skew(stack(0, part, -part)))[0, :] / 2
     return equal(row @ (alpha * eye(3)) @ (u_bar * stack(1, 1, 1)), sqrt(3) / 2 * bound)
@@ -157,7 +161,9 @@ tau_k = study.parameter("tau_k")  # one component of tau and of d
 d_k = study.parameter("d_k")
 
 
-@study.printed("discussion 1", reading="what keeps V falling, K_v |tau| >= d tau, with tanh in the place of sgn")
+@study.printed(
+    "discussion 1", reading="what keeps V falling, K_v |tau| >= d tau, with tanh in the place of sgn"
+)
 def tanh_in_the_place_of_sgn():
     """The hyperbolic tangent may replace the sign function."""
     given = [K_v - d_k >= 0, K_v + d_k >= 0]
@@ -166,5 +172,5 @@ def tanh_in_the_place_of_sgn():
 
 study.rejected(
     tanh_in_the_place_of_sgn,
-    why="Near tau = 0 the disturbance is not dominated: synchronisation up to a neighbourhood is all that is left.",
+    why="Near tau = 0 the disturbance is not dominated: synchronisation to a neighbourhood is left.",
 )

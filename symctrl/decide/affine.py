@@ -1,4 +1,4 @@
-"""Definiteness of symbolic matrices of any size: by dominance row by row, or as a sum of multiples of rational matrices."""
+"""Definiteness of symbolic matrices of any size: by dominance, or as a sum of multiples of rational ones."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Rows = list[list[Fraction]]
 
 
 def by_rows(session: Session, rows: list[list[Exact]], small: str | None) -> Any:
-    """Each diagonal entry exceeds the sum of the absolute values beside it (Gershgorin); None where it is not shown."""
+    """Each diagonal entry exceeds the absolute values beside it (Gershgorin); None where it is not shown."""
     domain, entries = session.domain, []
     for r, row in enumerate(rows):
         left = row[r]
@@ -39,7 +39,7 @@ def by_rows(session: Session, rows: list[list[Exact]], small: str | None) -> Any
 
 
 def by_sum(session: Session, rows: list[list[Exact]], strict: bool) -> Any:
-    """A = sum of g P with known g >= 0 and rational semidefinite P; a known g may take the place of a monomial."""
+    """A = sum of g P, known g >= 0, rational semidefinite P; a known g may take the place of a monomial."""
     parts = _parts(rows)
     if parts is None:
         return None
@@ -89,7 +89,7 @@ def _parts(rows: list[list[Exact]]) -> dict[Monomial, Rows] | None:
 
 
 def _substituted(session: Session, parts: dict[Monomial, Rows]) -> Iterator[list[tuple[Poly, Rows]]]:
-    """The parts as they are, then with each known positive polynomial in the place of one of its monomials."""
+    """The parts as they are, then with each known polynomial in the place of one of its monomials."""
     context = session.domain.field.context
     yield [(context.from_dict({m: 1}), rows) for m, rows in parts.items()]
     for fact, kind in session.domain.signs.facts:

@@ -9,13 +9,14 @@ from fractions import Fraction
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
+from symctrl.bounds import Statement
 from symctrl.certify import bundle
 from symctrl.collect import Collector
 from symctrl.decide.decision import decide
 from symctrl.kernel.check import check_text
 from symctrl.problem import Problem
 from symctrl.reach import closings
-from symctrl.statements import AtValues, Equivalent, Implies, Statement, SufficientlySmall
+from symctrl.statements import AtValues, Equivalent, Implies, SufficientlySmall
 from symctrl.verdict import Condition, Outcome, Verdict
 from symctrl.written import StudyError
 

@@ -94,8 +94,8 @@ def _refuted(problem: Problem, found: Attempt) -> Verdict:
         reason = f"a witness was found that the kernel declines: {answer.reason}"
         return Verdict(Outcome.UNDECIDED, reason, "exact witness")
     if answer.status != "valid":
-        raise KernelDisagrees(f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}")
+        raise KernelDisagrees(
+            f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}"
+        )
     shown = found.witness.values_json(problem)
-    return Verdict(
-        Outcome.REFUTED, found.witness.says, "exact witness", (), made, shown, found.residual
-    )
+    return Verdict(Outcome.REFUTED, found.witness.says, "exact witness", (), made, shown, found.residual)

@@ -63,16 +63,10 @@ def _prove(session: Session, outputs: Sequence[Exact], tree: Tree, strict: bool,
         answer = decide_matrix([[n for n in row if n is not None] for row in numbers])
         wanted = ("positive definite",) if strict else ("positive definite", "positive semidefinite")
         return answer.leaf if answer.definiteness in wanted else None
-    for way in (
-        lambda: _assumed(session, rows, strict),
-        lambda: by_rows(session, rows, small),
-        lambda: _by_minors(session, rows, small),
-        lambda: by_sum(session, rows, strict),
-    ):
-        leaf = way()
-        if leaf is not None:
-            return leaf
-    return None
+    leaf = _assumed(session, rows, strict)
+    leaf = by_rows(session, rows, small) if leaf is None else leaf
+    leaf = _by_minors(session, rows, small) if leaf is None else leaf
+    return by_sum(session, rows, strict) if leaf is None else leaf
 
 
 def _prove_congruence(

@@ -132,8 +132,8 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
         value = -value
     shift = attempt // 4 % MOST_SHIFTS
     if name in made.positive:
-        return value * 2 ** generator.choice((0, shift))
-    return value / 2 ** generator.choice((shift, generator.randint(0, shift)))
+        return value * Fraction(2) ** generator.choice((0, shift))
+    return value / Fraction(2) ** generator.choice((shift, generator.randint(0, shift)))
 
 
 def _on_sphere(count: int, generator: random.Random, height: int) -> list[Fraction]:

@@ -109,7 +109,7 @@ def _solved(session: Session, zeros: list[Poly], taken: frozenset[int]) -> Itera
 
 
 def _squares(session: Session, p: Poly) -> list[Poly] | None:
-    """The linear forms of a quadratic form that is a sum of squares, or minus one: they vanish where it does."""
+    """The linear forms of a quadratic form that is plus or minus a sum of squares: they vanish with it."""
     field = session.domain.field
     if p.total_degree() != 2 or any(sum(map(int, e)) != 2 for e in p.monoms()):
         return None
@@ -125,7 +125,13 @@ def _squares(session: Session, p: Poly) -> list[Poly] | None:
         if leaf is not None and "ldl" in leaf:
             lower, diagonal = leaf["ldl"]["lower"], leaf["ldl"]["diagonal"]
             return [
-                sum((field.variable(variables[r]) * field.polynomial(Fraction(lower[r][k])) for r in range(k, len(gram))), start=field.polynomial(0))
+                sum(
+                    (
+                        field.variable(variables[r]) * field.polynomial(Fraction(lower[r][k]))
+                        for r in range(k, len(gram))
+                    ),
+                    start=field.polynomial(0),
+                )
                 for k, d in enumerate(diagonal)
                 if Fraction(d)
             ]

@@ -10,12 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from math import comb
 from typing import Any
 
-from symctrl.domains.domain import Domain
+from symctrl.domains.domain import Domain, Unsupported
 from symctrl.domains.field import Exact, Field, Key, Poly, coefficient, key_product, merged
 from symctrl.domains.opaque import Knowledge, NowhereDefined, Opaque
 from symctrl.domains.signs import Signs
+
+MAX_TERMS = 200_000
 
 
 @dataclass
@@ -81,9 +84,12 @@ class ExactDomain(Domain[Exact]):
         return self.mul_(self.constant(factor), a)
 
     def power(self, a: Exact, exponent: int) -> Exact:
-        """a**exponent by squaring; a negative exponent inverts first."""
+        """a**exponent by squaring; a negative exponent inverts first. Raises Unsupported where it is too long."""
         if exponent < 0:
             return self.power(self.inv_(a), -exponent)
+        length = max(1, sum(len(p) for p in a.values()))
+        if comb(min(exponent, MAX_TERMS) + length - 1, length - 1) > MAX_TERMS:
+            raise Unsupported(f"the exact domain does not expand the power {exponent} of a sum of {length} terms")
         result = self.constant(Fraction(1))
         while exponent:
             if exponent & 1:

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 FUNCTIONS = frozenset(
     ["LOG", "TANH", "ASIN", "ACOS", "ATAN", "ASINH", "ACOSH", "ATANH", "ERF", "ERFINV", "FLOOR", "CEIL", "ATAN2"]
 )
+MAX_MULTIPLE = 32  # of an angle: sin(32 x) is a polynomial of degree 32 in sin(x), cos(x)
 ODD = frozenset(["TANH", "ASIN", "ATAN", "ASINH", "ATANH", "ERF", "ERFINV"])
 
 
@@ -225,8 +226,12 @@ class Opaque:
         """(cos a, sin a) by the addition theorems."""
         domain = self.domain
         result = (domain.constant(Fraction(1)), domain.constant(Fraction(0)))
+        multiples = 1
         for atom, c in self._atoms(a):
             base, unit = self._unit("angle", atom, c)
+            multiples *= abs(int(c * unit))
+            if multiples > MAX_MULTIPLE:
+                raise Unsupported("the exact domain gives no meaning to the sine of so large a multiple of an angle")
             k = self.generator(Generator("cos", argument=base))
             j = self.generator(Generator("sin", argument=base, partner=k))
             side = 1 if c > 0 else -1
