@@ -14,9 +14,10 @@ As integers, monomials are ordered lexicographically, later variables first.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from heapq import heapify, heappop, heappush
+from math import lcm
 
 from symctrl.kernel.certificate import Declined
 
@@ -50,10 +51,7 @@ def powers(packed: int) -> list[tuple[int, int]]:
 
 def variables(p: Poly) -> set[int]:
     """The variables that occur in a polynomial."""
-    seen = 0
-    for packed in p:
-        seen |= packed
-    return {k for k, _ in powers(seen)}
+    return {k for k, _ in powers(_bound(p))}
 
 
 def relation(p: Poly) -> Relation:
@@ -102,13 +100,14 @@ class Ring:
         """Raises Declined where an exponent or a coefficient could become too large."""
         self.spend(len(p) * len(q) + 1)
         self._require_room(p, q)
+        (d, p), (e, q) = _integral(p), _integral(q)
         result: Poly = {}
         get = result.get
         for m, c in p.items():
-            for n, d in q.items():
+            for n, d_n in q.items():
                 k = m + n
-                result[k] = get(k, 0) + c * d
-        return {m: c for m, c in result.items() if c}
+                result[k] = get(k, 0) + c * d_n
+        return _over(result, d * e)
 
     def power(self, p: Poly, n: int) -> Poly:
         """p to the power n >= 0."""
@@ -119,16 +118,13 @@ class Ring:
         return self.mul(square, p) if n % 2 else square
 
     def _require_room(self, p: Poly, q: Poly) -> None:
-        bounds = []
-        for one in (p, q):
-            bound, size = 0, 0
-            for m, c in one.items():
-                bound |= m  # at least the largest exponent, variable by variable
-                size = max(size, c.numerator.bit_length() + c.denominator.bit_length())
-            bounds.append((bound, size))
-        if (bounds[0][0] + bounds[1][0]) & self._guard:
+        if (_bound(p) + _bound(q)) & self._guard:
             raise Declined(f"an exponent may exceed the limit {MAX_EXPONENT}")
-        if bounds[0][1] + bounds[1][1] > MAX_COEFFICIENT_BITS:
+        sizes = [
+            max((c.numerator.bit_length() + c.denominator.bit_length() for c in one.values()), default=0)
+            for one in (p, q)
+        ]
+        if sum(sizes) > MAX_COEFFICIENT_BITS:
             raise Declined("a coefficient has too many digits")
 
     def divides(self, m: int, n: int) -> bool:
@@ -137,6 +133,8 @@ class Ring:
 
     def quotient(self, p: Poly, divisor: Poly) -> Poly | None:
         """p / divisor where that is a polynomial, else None; the divisor is not zero."""
+        if p and not (self.divides(max(divisor), max(p)) and self.divides(min(divisor), min(p))):
+            return None
         remainder, quotient = self._divide(p, [relation(divisor)], stop=True)
         if remainder:
             return None
@@ -149,32 +147,57 @@ class Ring:
 
     def _divide(self, p: Poly, relations: Sequence[Relation], stop: bool) -> tuple[Poly, Poly]:
         """(remainder, multiples of leads that were replaced); `stop` at the first remaining term."""
-        rest = dict(p)
+        d, rest = _integral(p)
         heap = [-m for m in rest]
         heapify(heap)
         remainder: Poly = {}
         replaced: Poly = {}
+        bounds = [_bound(tail) for _, tail in relations]
         while heap:
             m = -heappop(heap)
             c = rest.pop(m, 0)
             if not c:
                 continue
-            self.spend(1)
-            found = next((r for r in relations if self.divides(r[0], m)), None)
+            found = next((r for r, (lead, _) in enumerate(relations) if self.divides(lead, m)), None)
             if found is None:
                 remainder[m] = c
                 if stop:
                     return remainder, replaced
                 continue
-            lead, tail = found
-            replaced[m - lead] = replaced.get(m - lead, 0) + c
-            self._require_room({m - lead: c}, tail)
-            self.spend(len(tail))
-            for n, d in tail.items():
-                k = m - lead + n
+            lead, tail = relations[found]
+            by = m - lead
+            self.spend(len(tail) + 1)
+            if (by + bounds[found]) & self._guard:
+                raise Declined(f"an exponent may exceed the limit {MAX_EXPONENT}")
+            if c.numerator.bit_length() > MAX_COEFFICIENT_BITS:
+                raise Declined("a coefficient has too many digits")
+            replaced[by] = c
+            for n, t in tail.items():
+                k = by + n
                 if k in rest:
-                    rest[k] += c * d
+                    rest[k] += c * t
                 else:
-                    rest[k] = c * d
+                    rest[k] = c * t
                     heappush(heap, -k)
-        return remainder, replaced
+        return _over(remainder, d), _over(replaced, d)
+
+
+def _bound(p: Poly) -> int:
+    """At least the largest exponent of each variable, packed like a monomial."""
+    bound = 0
+    for m in p:
+        bound |= m
+    return bound
+
+
+def _integral(p: Poly) -> tuple[int, Poly]:
+    """(d, d p) with the least d > 0 that makes the coefficients integers. The polynomial is a new one."""
+    d = lcm(*{c.denominator for c in p.values()})
+    return d, {m: c.numerator * (d // c.denominator) for m, c in p.items()}
+
+
+def _over(p: Mapping[int, Number], d: int) -> Poly:
+    """p / d without the terms that are zero."""
+    if d == 1:
+        return {m: c for m, c in p.items() if c}
+    return {m: tidy(Fraction(c) / d) for m, c in p.items() if c}
