@@ -1,8 +1,9 @@
 """The exact domain: rational functions over Q in generators, reduced by relations.
 
-A value is a sum of fractions, {denominator: numerator}, over a table of irreducible factors found when something is
-inverted. Sums are not put over a common denominator; relations are applied where it must be known whether a value is
-zero. What no ring operation covers becomes an opaque generator with its relations (symctrl.domains.opaque).
+A value is a sum of fractions, {denominator: numerator}, over a table of irreducible factors found when
+something is inverted. Sums are not put over a common denominator; relations are applied where it must be known
+whether a value is zero. What no ring operation covers becomes an opaque generator with its relations
+(symctrl.domains.opaque).
 """
 
 from __future__ import annotations
@@ -23,14 +24,17 @@ MAX_TERMS = 200_000
 
 @dataclass
 class Recording:
-    """What the kernel needs to repeat the evaluation: for each inverted value its factors, for each opaque result its value."""
+    """What the kernel needs to repeat the evaluation: factors of inverted values, and opaque results."""
 
     inverses: list[tuple[Fraction, tuple[tuple[int, int], ...]]] = field(default_factory=list)
     results: list[Exact] = field(default_factory=list)
 
 
 class ExactDomain(Domain[Exact]):
-    """Exact values over one `Field`. Raises NowhereDefined, OutOfGenerators and opaque.Refine (evaluate again, knowing more)."""
+    """Exact values over one `Field`.
+
+    Raises NowhereDefined, OutOfGenerators, Unsupported and opaque.Refine (evaluate again, knowing more).
+    """
 
     name = "exact"
 
@@ -84,12 +88,14 @@ class ExactDomain(Domain[Exact]):
         return self.mul_(self.constant(factor), a)
 
     def power(self, a: Exact, exponent: int) -> Exact:
-        """a**exponent by squaring; a negative exponent inverts first. Raises Unsupported where it is too long."""
+        """a**exponent by squaring; a negative one inverts first. Raises Unsupported where it is too long."""
         if exponent < 0:
             return self.power(self.inv_(a), -exponent)
         length = max(1, sum(len(p) for p in a.values()))
         if comb(min(exponent, MAX_TERMS) + length - 1, length - 1) > MAX_TERMS:
-            raise Unsupported(f"the exact domain does not expand the power {exponent} of a sum of {length} terms")
+            raise Unsupported(
+                f"the exact domain does not expand the power {exponent} of a sum of {length} terms"
+            )
         result = self.constant(Fraction(1))
         while exponent:
             if exponent & 1:
@@ -157,11 +163,11 @@ class ExactDomain(Domain[Exact]):
                 common[k] = max(common.get(k, 0), e)
         total = self.field.polynomial(0)
         for key, p in a.items():
-            have = dict(key)
+            have, scaled = dict(key), p
             for k, e in common.items():
                 if e > have.get(k, 0):
-                    p = p * self.field.factors[k] ** (e - have.get(k, 0))
-            total = total + p
+                    scaled = scaled * self.field.factors[k] ** (e - have.get(k, 0))
+            total = total + scaled
         return self.field.normal(total), tuple(sorted(common.items()))
 
     def is_zero(self, a: Exact) -> bool:
@@ -204,14 +210,16 @@ class ExactDomain(Domain[Exact]):
         return c, exponents
 
     def _square_root(self, f: Poly) -> tuple[Poly | None, Fraction]:
-        """A generator g and a number r with f = r g² by a relation, as 1 - qᵀq is q0² for a unit quaternion."""
+        """A generator g and r with f = r g² by a relation, as 1 - qᵀq is q0² for a unit quaternion."""
         for relation in self.field.relations:
             lead = next(iter(relation.monoms()))
             if sorted(lead)[-2:] == [0, 2] or list(lead) == [2]:
                 g = self.field.context.gen(list(lead).index(2))
                 tail = g * g - relation / relation.leading_coefficient()
-                ratio = f.leading_coefficient() / tail.leading_coefficient() if not tail.is_zero() else 0
-                if not tail.is_zero() and not tail.is_constant() and f == tail * ratio:
+                if tail.is_constant():
+                    continue
+                ratio = f.leading_coefficient() / tail.leading_coefficient()
+                if f == tail * ratio:
                     return g, Fraction(int(ratio.p), int(ratio.q))
         return None, Fraction(1)
 
@@ -283,15 +291,13 @@ class ExactDomain(Domain[Exact]):
         return found | {k for value in self.recording.results for key in value for k, _ in key}
 
     def proof_json(self) -> dict[str, Any]:
-        """Generators, the factors that something was divided by, and each distinct inverse and opaque result once."""
+        """Generators, factors that something was divided by, each distinct inverse and opaque result once."""
         divided = self.divided()
         place = {k: n for n, k in enumerate(sorted(divided))}
         inverses = [
             {"inverse": [str(c), [[place[k], e] for k, e in key]]} for c, key in self.recording.inverses
         ]
-        results = [
-            {"is": self.field.value_json(value, place)} for value in self.recording.results
-        ]
+        results = [{"is": self.field.value_json(value, place)} for value in self.recording.results]
         return {
             "generators": self.field.generators_json(place),
             "factors": [self.field.json(self.field.factors[k]) for k in sorted(divided)],

@@ -1,7 +1,7 @@
 """The algebra under the exact domain: polynomials in generators, a table of factors, and relations.
 
-Generators rank by their index (a later one is higher, lexicographic order): first the free symbols, then the opaque ones
-(a root, a sine, an absolute value), each defined over earlier generators. FLINT fixes the number of variables of a
+Generators rank by their index (a later one is higher, lexicographic order): free symbols, and opaque ones (a
+root, a sine, an absolute value), each defined over earlier generators. FLINT fixes the number of variables of a
 context, so spare ones are reserved and taken from the lowest up.
 """
 
@@ -21,7 +21,7 @@ Key = tuple[tuple[int, int], ...]  # (factor, exponent), increasing: the denomin
 Exact = dict[Key, Any]  # the sum of the groups numerator / denominator; no group is zero
 
 
-class OutOfGenerators(Exception):
+class OutOfGenerators(Exception):  # noqa: N818
     """More opaque generators are needed than were reserved."""
 
 
@@ -29,8 +29,8 @@ class OutOfGenerators(Exception):
 class Generator:
     """One variable. kind: free, sum, root, abs, sign, cos, sin, exp, power or function.
 
-    name: of a free symbol or a function, or the node of a sum. argument: the defining polynomial (root, abs, sign,
-    power), the monomial that is summed over the node's neighbours, or values.
+    name: of a free symbol or a function, or the node of a sum. argument: the defining polynomial (root, abs,
+    sign, power), the monomial that is summed over the node's neighbours, or values.
     """
 
     kind: str
@@ -114,8 +114,10 @@ class Field:
         """Indices of the generators that an opaque generator is defined over."""
         g = self.generators[k]
         found = {g.partner} if g.partner >= 0 else set()
-        for part in (g.argument if isinstance(g.argument, tuple) else (g.argument, g.exponent)):
-            for key, p in (part if isinstance(part, dict) else {(): part}).items() if part is not None else ():
+        for part in g.argument if isinstance(g.argument, tuple) else (g.argument, g.exponent):
+            for key, p in (
+                (part if isinstance(part, dict) else {(): part}).items() if part is not None else ()
+            ):
                 found |= self.occurring(p)
                 for f, _ in key:
                     found |= self.occurring(self.factors[f])
@@ -132,7 +134,8 @@ class Field:
     def value_text(self, value: Exact) -> str:
         """The value likewise."""
         groups = [
-            (sorted((self.text(self.factors[k]), e) for k, e in key), self.text(p)) for key, p in value.items()
+            (sorted((self.text(self.factors[k]), e) for k, e in key), self.text(p))
+            for key, p in value.items()
         ]
         return str(sorted(groups))
 

@@ -1,10 +1,10 @@
 """Operations that leave the rational functions: each result is a product of powers of opaque generators.
 
-Roots, absolute values and signs go factor by factor through the irreducible factors of their argument, so that
-sqrt(x) sqrt(y) and sqrt(x y) meet; exponentials, powers with a symbolic exponent, sines and cosines go term by term
-through their argument, so that exp(x + y), sin(2 x + y) and |x|^(g - 1) meet exp(x), sin(x) and |x|^g. The
-generators must be fine enough for everything that occurs (a cube root and a square root need a sixth root): where they
-are not, `Refine` asks for the evaluation to start again with what has been learnt.
+Roots, absolute values and signs go factor by factor through the irreducible factors of their argument, so
+that sqrt(x) sqrt(y) and sqrt(x y) meet; exponentials, powers with a symbolic exponent, sines and cosines go term
+by term through their argument, so that exp(x + y), sin(2 x + y) and |x|^(g - 1) meet exp(x), sin(x) and |x|^g.
+The generators must be fine enough for everything that occurs (a cube root and a square root need a sixth root):
+where they are not, `Refine` asks for the evaluation to start again with what has been learnt.
 """
 
 from __future__ import annotations
@@ -24,7 +24,21 @@ if TYPE_CHECKING:
     from symctrl.domains.exact import ExactDomain
 
 FUNCTIONS = frozenset(
-    ["LOG", "TANH", "ASIN", "ACOS", "ATAN", "ASINH", "ACOSH", "ATANH", "ERF", "ERFINV", "FLOOR", "CEIL", "ATAN2"]
+    [
+        "LOG",
+        "TANH",
+        "ASIN",
+        "ACOS",
+        "ATAN",
+        "ASINH",
+        "ACOSH",
+        "ATANH",
+        "ERF",
+        "ERFINV",
+        "FLOOR",
+        "CEIL",
+        "ATAN2",
+    ]
 )
 MAX_MULTIPLE = 32  # of an angle: sin(32 x) is a polynomial of degree 32 in sin(x), cos(x)
 ODD = frozenset(["TANH", "ASIN", "ATAN", "ASINH", "ATANH", "ERF", "ERFINV"])
@@ -34,13 +48,13 @@ class NowhereDefined(ValueError):  # noqa: N818
     """An operation that has no value anywhere on the domain."""
 
 
-class Refine(Exception):
+class Refine(Exception):  # noqa: N818
     """More is known than when the evaluation began: start again with the same `Knowledge`."""
 
 
 @dataclass
 class Knowledge:
-    """What an evaluation learns for the next: common denominators, by the text of factor or term, and what is not negative."""
+    """What an evaluation learns for the next, by texts: common denominators, and what is not negative."""
 
     denominators: dict[str, int] = field(default_factory=dict)
     nonnegative: list[str] = field(default_factory=list)
@@ -72,7 +86,14 @@ class Opaque:
     def handler(self, op: str) -> Callable[..., Exact] | None:
         if op in FUNCTIONS:
             return lambda *args: self.function(op.lower(), *args)
-        return {"SQRT": self.sqrt, "FABS": self.fabs, "SIGN": self.sign, "EXP": self.exp, "SIN": self.sin, "COS": self.cos}.get(op)
+        return {
+            "SQRT": self.sqrt,
+            "FABS": self.fabs,
+            "SIGN": self.sign,
+            "EXP": self.exp,
+            "SIN": self.sin,
+            "COS": self.cos,
+        }.get(op)
 
     # Factor by factor
 
@@ -124,7 +145,9 @@ class Opaque:
             raise NowhereDefined("a division by what is zero on the whole domain")
         if c == 0:
             return self.domain.constant(Fraction(0))
-        domain, known, unknown = self.domain, [], []
+        domain = self.domain
+        known: list[tuple[int, int]] = []
+        unknown: list[tuple[int, int]] = []
         for k, e in key:
             (known if self._nonnegative(self.field.factors[k]) else unknown).append((k, e))
         if c < 0 and all(e % 2 == 0 for _, e in unknown):
@@ -160,7 +183,9 @@ class Opaque:
     def _product(self, c: Fraction, unknown: list[tuple[int, int]]) -> Poly:
         """The factors of unknown sign, with the sign of c."""
         if any(e < 0 for _, e in unknown):
-            raise Unsupported("the exact domain gives no meaning to a power, other than a half, of a quotient of unknown sign")
+            raise Unsupported(
+                "the exact domain gives a quotient of unknown sign no power other than multiples of a half"
+            )
         product = self.field.polynomial(-1 if c < 0 else 1)
         for k, e in unknown:
             product = product * self.field.factors[k] ** e
@@ -184,7 +209,9 @@ class Opaque:
             if atom is None:
                 result = self.domain.mul_(result, self._root(base, 1, total))
                 continue
-            unit = self.knowledge.denominator(f"power {self.field.text(base)} {self.field.value_text(atom)}", total.denominator)
+            unit = self.knowledge.denominator(
+                f"power {self.field.text(base)} {self.field.value_text(atom)}", total.denominator
+            )
             value = self.domain.scaled(atom, Fraction(1, unit))
             g = self.generator(Generator("power", argument=base, exponent=value))
             p = self.domain.polynomial(self.field.variable(g))
@@ -231,7 +258,9 @@ class Opaque:
             base, unit = self._unit("angle", atom, c)
             multiples *= abs(int(c * unit))
             if multiples > MAX_MULTIPLE:
-                raise Unsupported("the exact domain gives no meaning to the sine of so large a multiple of an angle")
+                raise Unsupported(
+                    "the exact domain gives no meaning to the sine of so large a multiple of an angle"
+                )
             k = self.generator(Generator("cos", argument=base))
             j = self.generator(Generator("sin", argument=base, partner=k))
             side = 1 if c > 0 else -1
@@ -257,12 +286,14 @@ class Opaque:
             if g.kind != "function" or g.name != name:
                 continue
             variable = self.field.variable(k)
-            if all(self.domain.is_zero(self.domain.sub_(a, b)) for a, b in zip(values, g.argument, strict=True)):
+            if all(
+                self.domain.is_zero(self.domain.sub_(a, b)) for a, b in zip(values, g.argument, strict=True)
+            ):
                 return self.domain.polynomial(variable)
             if name.upper() in ODD and self.domain.is_zero(self.domain.add_(values[0], g.argument[0])):
                 return self.domain.polynomial(-variable)
-        g = self.field.add_generator(Generator("function", name, argument=values))
-        return self.domain.polynomial(self.field.variable(g))
+        made = self.field.add_generator(Generator("function", name, argument=values))
+        return self.domain.polynomial(self.field.variable(made))
 
     def _atoms(self, a: Exact) -> list[tuple[Exact | None, Fraction]]:
         """a as a sum of rational multiples of single terms; None is the term 1."""
@@ -299,6 +330,8 @@ class Opaque:
             m = self.field.variable(wanted.partner)
             self.field.add_relation(g * wanted.argument - m)
             self.field.add_relation(g * m - wanted.argument)
+            if self._sign(wanted.argument) in ("positive", "nonzero"):
+                self.field.add_relation(g * g - 1)
         return k
 
     def _abs_generator(self, f: Poly) -> int:
@@ -323,7 +356,9 @@ class Opaque:
     def _polynomial_part(self, a: Exact) -> Poly:
         value = self.domain.simplified(a)
         if set(value) != {()}:
-            raise Unsupported("the exact domain gives no meaning to a symbolic power of a quotient of unknown sign")
+            raise Unsupported(
+                "the exact domain gives no meaning to a symbolic power of a quotient of unknown sign"
+            )
         return value[()]
 
     def _primes(self, c: Fraction) -> list[tuple[int, int]]:

@@ -15,7 +15,7 @@ NONNEGATIVE_KINDS = frozenset(("root", "abs", "exp", "power"))
 
 @dataclass
 class Signs:
-    """Known signs over a field. `generator[k]` and the polynomials in `facts` are "positive", "nonnegative" or "nonzero"."""
+    """What is known of generators, and of the polynomials in `facts`: positive, nonnegative or nonzero."""
 
     field_: Field
     generator: dict[int, str] = field(default_factory=dict)
@@ -46,9 +46,12 @@ class Signs:
                 best = kind
             if ratio < 0 and kind in ("positive", "nonzero") and best is None:
                 best = "nonzero"
-        if best is None and self._by_terms(-p) == "positive":
+        if best is None and (self._by_terms(-p) == "positive" or self._is_nonzero_monomial(p)):
             best = "nonzero"
         return best
+
+    def _is_nonzero_monomial(self, p: Poly) -> bool:
+        return len(p) == 1 and all(self._variable(k, 2) == "positive" for k in self.field_.occurring(p))
 
     def _by_terms(self, p: Poly) -> str | None:
         strict = False

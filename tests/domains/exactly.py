@@ -1,4 +1,4 @@
-"""Expressions in the exact domain, and the numbers that its values stand for: an evaluation of its own in mpmath."""
+"""Expressions in the exact domain, and the numbers that its values stand for, by mpmath."""
 
 from __future__ import annotations
 
@@ -37,7 +37,8 @@ def tape(*exprs: Expr) -> Tape:
 def values(listing: Tape, domain: Domain[Any], symbols: Callable[[str], Any]) -> list[Any]:
     """All outputs in a domain. symbols: the value of each; a named constant is its number."""
     inputs = {
-        name: domain.constant(Fraction(name)) if is_constant_name(name) else symbols(name) for name in listing.inputs
+        name: domain.constant(Fraction(name)) if is_constant_name(name) else symbols(name)
+        for name in listing.inputs
     }
     return interpret(listing, domain, inputs)
 
@@ -108,6 +109,13 @@ def real_power(base: Any, exponent: Any) -> Any:
     return base**exponent
 
 
+def opaque_power(base: Any, exponent: Any) -> Any:
+    """A power as a certificate defines it: of what is positive, or of zero with a positive exponent."""
+    if base < 0 or (base == 0 and exponent <= 0):
+        raise Undefined
+    return base**exponent
+
+
 class Meant:
     """The numbers that generators and values of a field stand for at a point.
 
@@ -144,13 +152,13 @@ class Meant:
     def _opaque(self, g: Any) -> Any:
         match g.kind:
             case "root":
-                return real_power(self.polynomial(g.argument), mpmath.mpf(1) / g.degree)
+                return opaque_power(self.polynomial(g.argument), mpmath.mpf(1) / g.degree)
             case "abs":
                 return abs(self.polynomial(g.argument))
             case "sign":
                 return mpmath.sign(self.polynomial(g.argument))
             case "power":
-                return real_power(self.polynomial(g.argument), self.value(g.exponent))
+                return opaque_power(self.polynomial(g.argument), self.value(g.exponent))
             case "cos" | "sin" | "exp":
                 return MEANING[g.kind.upper()].value(self.value(g.argument))
             case _:
