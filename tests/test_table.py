@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -129,3 +130,12 @@ def test_every_claim_is_in_the_tree_and_the_tree_ends(graph):
     text = shown(report(*rows), tree=True)
     for r in rows:
         assert f"(7) {r.id}: " in text
+
+
+def test_what_is_said_of_a_row_is_cut_and_never_lost_in_the_middle_of_the_table():
+    formula = "x*" * 400
+    row_ = replace(IF, verdict="refuted", stands=False, reason=formula, settled=True)
+    needy = row("needy", stands=False, conditions=(Discharged(formula + "y != 0", None),))
+    lines = shown(report(row_, needy)).splitlines()
+    assert all(len(line) < 260 for line in lines)
+    assert [line.endswith("…") for line in lines[1:3]] == [True, True]
