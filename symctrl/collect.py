@@ -55,6 +55,7 @@ class Collector:
         hypotheses: Sequence[Statement] = (),
         small: str | None = None,
         using: Sequence[Statement] = (),
+        expanded: bool = False,
     ) -> Problem:
         """The problem of an equation, a bound, definiteness or conformity, under hypotheses.
 
@@ -64,7 +65,7 @@ class Collector:
         exprs, kind, shape = _sides(claim)
         matrix = None
         if isinstance(claim, Definite):
-            matrix, exprs = lowered(claim.matrix)
+            matrix, exprs = lowered(claim.matrix, expanded)
         self.add("claim", exprs)
         self._reach("claim")
         for hypothesis in hypotheses:

@@ -6,11 +6,12 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from symctrl.bounds import Statement
-from symctrl.certify import bundle
+from symctrl.certify import bundle, canonical
 from symctrl.collect import Collector
 from symctrl.decide.decision import decide
 from symctrl.kernel.check import check_text
@@ -27,10 +28,14 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Part:
-    """One problem of a claim, and the role that it plays in it."""
+    """One problem of a claim, and the role that it plays in it.
+
+    expanded: the same problem with all entries of a matrix that is written as a product.
+    """
 
     problem: Problem
     role: str = ""
+    expanded: Problem | None = None
 
 
 def parts(
@@ -47,33 +52,23 @@ def parts(
         return [part for one in claim for part in parts(study, one, id_, values, using)]
     if isinstance(claim, AtValues):
         return parts(study, claim.claim, id_, study.all_values(), using)
+    made = partial(_part, study, id_, values, using)
     if isinstance(claim, Equivalent):
-        whole = [
-            Part(
-                _problem(study, claim.claim, id_, claim.conditions, values, using),
-                "the condition is sufficient",
-            )
-        ]
-        for condition in claim.conditions:
-            whole.append(
-                Part(
-                    _problem(study, condition, id_, [claim.claim], values, using),
-                    "the condition is necessary",
-                )
-            )
-        return whole
+        enough = made(claim.claim, claim.conditions, role="the condition is sufficient")
+        role = "the condition is necessary"
+        return [enough, *(made(condition, [claim.claim], role=role) for condition in claim.conditions)]
     if isinstance(claim, Implies):
-        return [Part(_problem(study, claim.claim, id_, claim.hypotheses, values, using))]
+        return [made(claim.claim, claim.hypotheses)]
     if isinstance(claim, SufficientlySmall):
-        return [Part(_problem(study, claim.claim, id_, (), values, using, small=claim.gain.args[0]))]
+        return [made(claim.claim, (), small=claim.gain.args[0])]
     if not isinstance(claim, Statement):
         raise StudyError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
-    return [Part(_problem(study, claim, id_, (), values, using))]
+    return [made(claim, ())]
 
 
 def verdict_of(found: Sequence[Part], store: Store | None) -> Verdict:
     """The verdict of a claim from those of its parts: refuted if one is, proved if all are."""
-    verdicts = [remembered(part.problem, store) for part in found]
+    verdicts = [_verdict(part, store) for part in found]
     if len(verdicts) == 1:
         return verdicts[0]
     for outcome in (Outcome.REFUTED, Outcome.ILL_FORMED, Outcome.UNDECIDED):
@@ -105,16 +100,29 @@ def remembered(
     return verdict
 
 
-def _problem(
+def _part(
     study: Study,
-    claim: Statement,
     id_: str,
-    hypotheses: Sequence[Statement],
     values: Mapping[str, Fraction] | None,
     using: Sequence[Statement],
+    claim: Statement,
+    hypotheses: Sequence[Statement],
+    role: str = "",
     small: str | None = None,
-) -> Problem:
-    return Collector(study, values).problem(claim, id_, hypotheses, small, using)
+) -> Part:
+    problem = Collector(study, values).problem(claim, id_, hypotheses, small, using)
+    if problem.claim.matrix is None or "congruence" not in canonical(problem.claim.matrix):
+        return Part(problem, role)
+    expanded = Collector(study, values).problem(claim, id_, hypotheses, small, using, expanded=True)
+    return Part(problem, role, expanded)
+
+
+def _verdict(part: Part, store: Store | None) -> Verdict:
+    """The verdict of a part; what is not decided by its structure, by its entries."""
+    verdict = remembered(part.problem, store)
+    if verdict.outcome is Outcome.UNDECIDED and part.expanded is not None:
+        return remembered(part.expanded, store)
+    return verdict
 
 
 def _holds_still(problem: Problem, known: Verdict) -> bool:

@@ -21,6 +21,7 @@ from symctrl.domains.field import Exact, Poly
 
 MAX_CANDIDATES = 1500
 MAX_MONOMIALS = 400
+MAX_PRODUCTS = 25
 TINY = 1e-9
 
 
@@ -263,7 +264,8 @@ def _squares(session: Session, p: Poly) -> list[Poly]:
     singles = [field.polynomial(1), *variables]
     pairs = [a + s * b for a, b in combinations(variables, 2) for s in (1, -1)] if len(variables) <= 8 else []
     products = [a * b for a, b in combinations_with_replacement(variables, 2)] if p.total_degree() > 3 else []
-    return singles + pairs + products
+    minors = [a - b for a, b in combinations(products, 2)] if len(products) <= MAX_PRODUCTS else []
+    return singles + pairs + products + minors
 
 
 def _is_sure(session: Session, candidate: Candidate) -> bool:

@@ -159,11 +159,25 @@ def _against(tree: Tree, outputs: Sequence[Fraction], strict: bool) -> list[Frac
 
 
 def _numbers(tree: Tree, outputs: Sequence[Fraction]) -> list[list[Fraction]]:
+    """The whole matrix of a tree."""
     if "congruence" in tree:
         middle = _numbers(tree["congruence"], outputs)
         c = [[outputs[k] for k in row] for row in tree["factor"]]
         return _product(_product([list(column) for column in zip(*c, strict=True)], middle), c)
-    return [[outputs[k] for k in row] for row in tree["entries"]]
+    if "entries" in tree:
+        return [[outputs[k] for k in row] for row in tree["entries"]]
+    if "kron_identity" in tree:
+        n, size = size_of(tree), tree["size"]
+        inner = _numbers(tree["kron_identity"], outputs)
+        at = range(n)
+        return [[inner[r // size][c // size] if r % size == c % size else Fraction(0) for c in at] for r in at]
+    parts = [_numbers(block, outputs) for block in tree["blocks"]]
+    rows, before = [], 0
+    for part in parts:
+        after = size_of(tree) - before - len(part)
+        rows += [[Fraction(0)] * before + row + [Fraction(0)] * after for row in part]
+        before += len(part)
+    return rows
 
 
 def _product(a: list[list[Fraction]], b: list[list[Fraction]]) -> list[list[Fraction]]:

@@ -246,21 +246,22 @@ class ExactDomain(Domain[Exact]):
         if handler is None:
             return super().operation(op)
 
-        def evaluate(*args: Exact) -> Exact:
-            result = handler(*args)
-            self.recording.results.append(result)
-            return result
+        return lambda *args: self._recorded(lambda: handler(*args))
 
-        return evaluate
+    def _recorded(self, work: Callable[[], Exact]) -> Exact:
+        """The result of an opaque operation; what it inverts on the way is its own affair."""
+        before = len(self.recording.inverses)
+        result = work()
+        del self.recording.inverses[before:]
+        self.recording.results.append(result)
+        return result
 
     def pow_(self, a: Exact, b: Exact) -> Exact:
         """a**b: repeated multiplication for an integer b, else symctrl.domains.opaque."""
         exponent = self.rational(b)
         if exponent is not None and exponent.denominator == 1:
             return self.power(a, int(exponent))
-        result = self.opaque.power(a, b)
-        self.recording.results.append(result)
-        return result
+        return self._recorded(lambda: self.opaque.power(a, b))
 
     def fmin_(self, a: Exact, b: Exact) -> Exact:
         """(a + b - |a - b|)/2."""
