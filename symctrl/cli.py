@@ -126,7 +126,10 @@ def verify(
     tree: Annotated[bool, typer.Option("--tree", help="Show what rests on what.")] = False,
     strict: Annotated[bool, typer.Option("--strict", help="Conditional claims do not count.")] = False,
     fresh: Annotated[bool, typer.Option("--fresh", help="Ignore the verdicts of earlier runs.")] = False,
-    jobs: Annotated[int, typer.Option(metavar="N", min=1, help="Processes.")] = 1,
+    jobs: Annotated[
+        int | None,
+        typer.Option(metavar="N", min=1, help="Processes; as many as pay unless given.", show_default=False),
+    ] = None,
     json: JsonFile = None,
     certificates: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Write DIR/STUDY/ID.json for each claim that has one.")

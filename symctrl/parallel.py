@@ -1,12 +1,13 @@
 """Deciding the claims of one study in several processes.
 
-The processes put what they find into the store and hand nothing back: the caller then decides the whole study
-as ever and finds the work done. So the result is that of one process, whatever happened to the others.
+The processes run the code that the caller would run, and hand their rows back; what they do not answer the
+caller decides. So the result is that of one process, whatever happened to the others.
 """
 
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -19,7 +20,10 @@ from symctrl import registry
 from symctrl.store import Store
 
 if TYPE_CHECKING:
+    from symctrl.rows import Row
     from symctrl.study import Study
+
+CLAIMS_FOR_A_PROCESS = 20
 
 
 @dataclass(frozen=True)
@@ -41,10 +45,16 @@ class Request:
             return study.at(graphs.parse(self.graph) if self.graph else None, self.values)
 
 
-def warm(
+def processes(claims: int) -> int:
+    """As many as there are processors and as pay: before it decides anything, each loads its libraries."""
+    return max(1, min(_processors(), claims // CLAIMS_FOR_A_PROCESS))
+
+
+def rows(
     request: Request, ids: Sequence[str], store: Store, jobs: int, progress: Callable[[str], None]
-) -> None:
-    """Decide each of `ids` in one of `jobs` processes, into `store`; a failure is left for the caller."""
+) -> dict[str, Row]:
+    """The rows of `ids`, each decided in one of `jobs` processes; without those that failed there."""
+    found: dict[str, Row] = {}
     context = multiprocessing.get_context("spawn")
     start = (request, store.folder, store.run)
     executor = ProcessPoolExecutor(jobs, mp_context=context, initializer=_start, initargs=start)
@@ -52,7 +62,9 @@ def warm(
         futures = {executor.submit(_decide, name): name for name in ids}
         for future in as_completed(futures):
             if isinstance(future.exception(), BrokenProcessPool):
-                return
+                break
+            if future.exception() is None:
+                found.update({row.id: row for row in future.result()})
             progress(futures[future])
     except BaseException:
         executor.shutdown(wait=False, cancel_futures=True)
@@ -61,6 +73,12 @@ def warm(
         raise
     finally:
         executor.shutdown()
+    return found
+
+
+def _processors() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 _worker: tuple[Study, Store] | None = None
@@ -73,9 +91,9 @@ def _start(request: Request, folder: Path, run: str) -> None:
     _worker = (request.build(), Store(folder, run))
 
 
-def _decide(name: str) -> None:
+def _decide(name: str) -> Sequence[Row]:
     from symctrl.verify import verify
 
     assert _worker is not None
     study, store = _worker
-    verify(study, {name}, store, lambda _: None)
+    return verify(study, {name}, store).rows

@@ -27,14 +27,15 @@ def decide(
     requests: Sequence[Request],
     claims: Collection[str] | None,
     *,
-    jobs: int,
+    jobs: int | None,
     fresh: bool,
     watch: Callable[[str], AbstractContextManager[Progress]],
 ) -> Iterator[tuple[Study, Report]]:
     """Each requested study with its report, in order. All are built before the first claim is decided.
 
     claims: ids, each of which one study at least must have; None for all. fresh: verdicts of earlier runs are
-    not used. watch: given a study's name, the context in which its claims are reported to a progress display.
+    not used. jobs: processes; None for as many as pay. watch: given a study's name, the context in which its
+    claims are reported to a progress display.
     Raises InputError.
     """
     studies = [request.build() for request in requests]
@@ -70,17 +71,19 @@ def write_certificates(report: Report, target: Path) -> None:
 @dataclass(frozen=True)
 class _Run:
     store: Store
-    jobs: int
+    jobs: int | None
     watch: Callable[[str], AbstractContextManager[Progress]]
 
     def decide(self, request: Request, study: Study, only: Collection[str] | None) -> Report:
         from symctrl.verify import verify
 
         with self.watch(study.name) as progress, registry.locate(request.study).blamed():
-            if self.jobs > 1:
-                ids = study.statement_ids() if only is None else sorted(only)
-                parallel.warm(request, ids, self.store, self.jobs, progress)
-            return verify(study, only, self.store, progress)
+            ids = study.statement_ids() if only is None else sorted(only)
+            jobs = self.jobs or parallel.processes(len(ids))
+            if jobs == 1:
+                return verify(study, only, self.store, progress)
+            found = parallel.rows(request, ids, self.store, jobs, progress)
+            return verify(study, only, self.store, progress, found)
 
 
 def _refuse_same_names(studies: Sequence[Study]) -> None:

@@ -38,8 +38,12 @@ def verify(
     only: Collection[str] | None = None,
     store: Store | None = None,
     progress: Progress = lambda _: None,
+    decided: Mapping[str, Row] | None = None,
 ) -> Report:
-    """All rows of the study, or those of `only`. Raises StudyError for an unknown id, ToolError."""
+    """All rows of the study, or those of `only`. Raises StudyError for an unknown id, ToolError.
+
+    decided: rows that another process has found already, by id.
+    """
     began = time.perf_counter()
     wanted = _wanted(study, only)
     rows = []
@@ -47,7 +51,7 @@ def verify(
         for id_ in entry.ids:
             if id_ in wanted:
                 progress(id_)
-                rows.append(_row(study, entry, id_, store))
+                rows.append((decided or {}).get(id_) or _row(study, entry, id_, store))
     rows = standing.settle(study, rows, complete=only is None)
     standing.refuse_needless(study, rows)
     used = {row.equation for row in rows}
