@@ -7,9 +7,8 @@ import json
 from collections.abc import Iterator
 from typing import Any
 
-from symctrl.kernel.certificate import digest, load
-from symctrl.kernel.check import check_text
-from symctrl.kernel.identity import needed_conditions
+from symctrl.kernel.certificate import digest
+from symctrl.kernel.check import check_text, needed_conditions
 
 Json = dict[str, Any]
 
@@ -82,8 +81,7 @@ def certificate(
         **copy.deepcopy(proof),
     }
     if conditions is None:
-        loaded = load(json.dumps(seal(whole)))
-        found = needed_conditions(loaded.statement, loaded.proof)
+        found = needed_conditions(json.dumps(seal(whole)))
         statement["conditions"] = [{"kind": c.kind, "of": c.of} for c in sorted(found, key=str)]
     return json.loads(json.dumps(seal(whole)))  # no part of it shared with another
 
