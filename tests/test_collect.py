@@ -1,0 +1,128 @@
+"""Collecting a problem: it holds what the claim reaches, and of the assumptions those about what occurs."""
+
+from fractions import Fraction
+
+import pytest
+
+from symctrl import Study, conforms, equal, nonnegative, positive_definite
+from symctrl.collect import Collector, UndefinedLetter
+from symctrl.expr import symbol
+from symctrl.reach import closings, pruned
+from symctrl.written import StudyError
+
+
+@pytest.fixture
+def study():
+    made = Study("own")
+    x, y, u = made.state("x"), made.state("y"), made.input("u")
+    k, c = made.gain("k", "2"), made.gain("c")
+    made.x, made.y, made.k, made.c = x, y, k, c
+    made.motion(x, y)
+    made.motion(y, u - x)
+    made.assume(x**2 <= 1, about="initial")
+
+    @made.law("law", u)
+    def law():
+        return -c * y
+
+    @made.definition("V")
+    def V():
+        return k * x**2 + y**2
+
+    made.law_, made.V = law, V
+    return made
+
+
+def problem(study, claim, **options):
+    return Collector(study, **options).problem(claim, "claim")
+
+
+def test_a_definition_is_a_name_with_a_listing_of_its_own(study):
+    made = problem(study, nonnegative(study.V()))
+    assert set(made.listings) >= {"claim", "V"}
+    assert made.tape("claim").inputs == ("V",)
+    assert {"x", "y", "k"} <= set(made.scalars)
+
+
+def test_a_rate_brings_motion_and_law_and_nothing_else_does(study):
+    still = problem(study, nonnegative(study.V()))
+    assert not still.motion
+    assert not still.laws
+    made = problem(study, equal(study.rate(study.V, study.law_), 0))
+    assert set(made.motion) == {"x", "y"}
+    assert set(made.laws) == {"law"}
+    assert "c" in made.scalars
+    free = problem(study, equal(study.rate(study.V), 0))
+    assert not free.laws
+    assert free.scalars["u"] == "input"
+
+
+def test_assumptions_are_those_about_what_occurs(study):
+    def texts(claim):
+        return {given.text for given in problem(study, claim).given}
+
+    assert texts(equal(study.y, study.y)) == set()
+    assert texts(equal(study.k, study.k)) == {"k > 0"}
+    assert texts(equal(study.x, study.x)) == {"x^2 <= 1"}
+
+
+def test_bound_values_are_literals(study):
+    made = problem(study, nonnegative(study.V()), values={"k": Fraction(1, 3)})
+    assert "k" not in made.scalars
+    assert Fraction(1, 3) in {step.value for step in made.tape("V").code if step.op == "CONST"}
+
+
+def test_equal_claims_have_equal_digests_and_other_claims_have_others(study):
+    claims = [
+        nonnegative(study.V()),
+        nonnegative(study.V() + 1),
+        nonnegative(study.x**2),
+        equal(study.rate(study.V), 0),
+        equal(study.rate(study.V, study.law_), 0),
+        positive_definite([[study.k]]),
+        conforms(study.V()),
+    ]
+    digests = [problem(study, claim).sha256 for claim in claims]
+    assert digests == [problem(study, claim).sha256 for claim in claims]
+    assert len(set(digests)) == len(claims)
+
+
+def test_a_symbol_that_the_study_does_not_declare_is_named(study):
+    with pytest.raises(UndefinedLetter, match="z is no symbol of the study own"):
+        problem(study, equal(symbol("z"), 0))
+
+
+@pytest.mark.parametrize("left", ["a symbol", "the rate of an expression"])
+def test_using_takes_what_has_a_name_on_its_left(study, left):
+    used = study.x if left == "a symbol" else study.rate(study.x * study.y)
+    with pytest.raises(StudyError, match=r"^using: "):
+        Collector(study).problem(equal(study.x, 0), "claim", using=[equal(used, 0)])
+
+
+def test_using_puts_the_right_side_in_the_place_of_the_name(study):
+    claim = equal(study.V(), study.y)
+    made = Collector(study).problem(claim, "claim", using=[equal(study.V(), study.y)])
+    assert "V" not in made.listings
+    assert set(made.scalars) == {"y"}
+
+
+def test_a_hint_speaks_of_what_the_claim_speaks_of(study):
+    with pytest.raises(StudyError, match="a hint of a proof speaks of "):
+        problem(study, nonnegative(study.x**2).by(squares=[study.y]))
+
+
+def test_pruning_changes_nothing_that_is_needed(study):
+    made = problem(study, equal(study.rate(study.V, study.law_), 0))
+    assert pruned(made) == made
+
+
+def test_a_closed_definition_is_a_free_symbol(study):
+    made = problem(study, equal(1 / study.V() * study.V(), 1))
+    closed = list(closings(made))
+    assert closed
+    assert all(one.scalars["V"] == "signal" and "V" not in one.listings for one in closed)
+
+
+def test_a_definition_whose_rate_is_taken_stays_open(study):
+    made = problem(study, equal(study.rate(study.V) / study.V(), 0))
+    assert all("V" in one.listings for one in closings(made))
