@@ -8,7 +8,8 @@ until the comparison is decided; equality is only ever shown by exact rationals.
 one about every graph, so that one graph is enough. A matrix A is not positive semidefinite where x'Ax <
 0, and not definite where x'Ax <= 0, x != 0.
 
-Proof fields: `values` {symbol at its node: number} for exactly the free symbols; for fleets `graph`, the
+Proof fields: `values` {symbol at its node: number} for exactly the free symbols, where {"cos": c, "sin": s}
+with c^2 + s^2 = 1 is the angle in (-pi, pi] with that cosine and sine; for fleets `graph`, the
 edges of a connected graph, and `node` where the claim speaks of node i; then `at`, the position of the
 entry that fails (from 0), or `x`, the vector, for definiteness. Where a Kronecker product A (x) I_n is
 claimed, x has n entries for each row.
@@ -41,13 +42,14 @@ from symctrl.kernel.matrices import eliminate
 
 BITS = (64, 256, 1024)
 Graph = Mapping[str, Sequence[str]]
+Number = Fraction | tuple[Fraction, Fraction]  # a pair is the cosine and sine of an angle
 
 
 @dataclass(frozen=True, slots=True)
 class Point:
     """Where the statement is evaluated; `binding` has the nodes that the letters of the claim stand for."""
 
-    values: Mapping[str, Fraction]
+    values: Mapping[str, Number]
     graph: Graph
     binding: Mapping[str, str]
     fails: Callable[[Sequence[Interval]], bool]
@@ -67,10 +69,11 @@ def verify(statement: Statement, proof: dict[str, Any]) -> None:
 
 
 def _refute(statement: Statement, place: Point, bits: int) -> None:
+    domain = Enclosure(bits)
     walk: Evaluation[Interval] = Evaluation(
         statement,
-        Enclosure(bits),
-        lambda name: point(place.values[name]),
+        domain,
+        lambda name: _enclosed(domain, place.values[name]),
         GraphSums(place.graph) if place.graph else NoSums(),
     )
     for k, assumption in enumerate(statement.given):
@@ -81,6 +84,12 @@ def _refute(statement: Statement, place: Point, bits: int) -> None:
     outputs = walk.outputs(statement.claim.listing, place.binding)
     if not place.fails(outputs):
         raise Invalid("the claim holds at the values of the witness")
+
+
+def _enclosed(domain: Enclosure, value: Number) -> Interval:
+    if isinstance(value, Fraction):
+        return point(value)
+    return domain.atan2_(point(value[1]), point(value[0]))
 
 
 def _bindings(statement: Statement, assumption: Assumption, graph: Graph) -> Iterator[dict[str, str]]:
@@ -137,7 +146,7 @@ def _read(statement: Statement, proof: dict[str, Any]) -> Point:
     return Point(_values(statement, proof["values"], graph), graph, binding, fails)
 
 
-def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Fraction]:
+def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Number]:
     """The number of each free symbol at each node; no other."""
     wanted = {
         name
@@ -145,7 +154,17 @@ def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Fractio
         for name in ([at_node(key, node) for node in graph] if per_node(key) else [key])
     }
     table = fields(given, wanted, "values")
-    return {name: rational(value, f"the value of {name}") for name, value in table.items()}
+    return {name: _number(value, f"the value of {name}") for name, value in table.items()}
+
+
+def _number(value: Any, where: str) -> Number:
+    if type(value) is not dict:
+        return rational(value, where)
+    table = fields(value, ("cos", "sin"), where)
+    cos, sin = (rational(table[part], f"{where}, {part}") for part in ("cos", "sin"))
+    if cos * cos + sin * sin != 1:
+        raise Invalid(f"{where}: {cos} and {sin} are no cosine and sine of an angle")
+    return cos, sin
 
 
 def _failure(statement: Statement, where: Any) -> Callable[[Sequence[Interval]], bool]:

@@ -1,5 +1,7 @@
 """Witnesses that refute, beside those that do not."""
 
+from fractions import Fraction
+
 import pytest
 
 from symctrl.kernel import witness
@@ -240,6 +242,38 @@ class TestFleets:
     def test_the_node_is_one_of_the_graph(self, node):
         with pytest.raises(Invalid):
             refute(self.stated, values=self.values, graph=self.path, node=node, at=0)
+
+
+class TestAngles:
+    """A symbol may stand for the angle with a rational cosine and sine."""
+
+    @pytest.mark.parametrize(
+        "turn", [("3/5", "4/5"), ("-3/5", "4/5"), ("-3/5", "-4/5"), ("0", "1"), ("-1", "0")]
+    )
+    def test_it_has_that_cosine_and_sine(self, turn):
+        cos, sin = turn
+        angle = {"x": {"cos": cos, "sin": sin}}
+        for function, value in (("COS", cos), ("SIN", sin)):
+            for margin in (1, -1):
+                bound = str(Fraction(value) + Fraction(margin, 10**40))
+                sides = ((function, "x"), bound) if margin > 0 else (bound, (function, "x"))
+                off = ("-", *sides)
+                refute(sign("nonnegative", off, ["x"]), values=angle, at=0)
+
+    def test_it_is_the_principal_one(self):
+        for low, cos in (("3", "-1"), ("-1/100", "1")):
+            refute(sign("nonnegative", ("-", low, "x"), ["x"]), values={"x": {"cos": cos, "sin": "0"}}, at=0)
+        below_pi = sign("nonnegative", ("-", "x", "22/7"), ["x"])
+        refute(below_pi, values={"x": {"cos": "-1", "sin": "0"}}, at=0)
+
+    @pytest.mark.parametrize(
+        "angle",
+        [{"cos": "3/5", "sin": "3/5"}, {"cos": "0", "sin": "0"}, {"cos": "1"}, {"cos": "1", "sin": "0", "tan": "0"},
+         {"cos": 0.6, "sin": 0.8}, ["3/5", "4/5"]],
+    )  # fmt: skip
+    def test_what_is_no_angle(self, angle):
+        with pytest.raises(Invalid):
+            refute(sign("nonnegative", ("-", ("COS", "x"), 2), ["x"]), values={"x": angle}, at=0)
 
 
 class TestNeighbours:
