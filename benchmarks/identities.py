@@ -7,7 +7,7 @@ the domain"; `certified` also has the certificate made and accepted by the kerne
 of the same lists. `simplify`, `trigsimp` and `cancel` work entry by entry; where the result is not zero and a
 norm is given, it is put in and simplified again. `field` is what an expert would write: sympy.field over the
 symbols with a sine and a cosine for each angle, and the remainder of the numerator by the relations. Each is
-the best of three in one run, in a process of its own that is ended at the limit. Ratios are peer over `exact`.
+the best of three in one run, in a process of its own that is ended at the limit. Ratios are over `exact`.
 """
 
 from __future__ import annotations

@@ -26,13 +26,14 @@ class Recipe:
     """How the symbols of a problem are drawn.
 
     ways: to meet the assumed equations. definite: symbols of matrices, with their sizes. root: powers of this
-    degree keep roots rational.
+    degree keep roots rational. positive, nonnegative: symbols that are assumed to be.
     """
 
     problem: Problem
     ways: tuple[Way, ...]
     definite: tuple[tuple[tuple[str, ...], int], ...]
     positive: frozenset[str]
+    nonnegative: frozenset[str]
     root: int
 
 
@@ -40,14 +41,23 @@ def recipe(problem: Problem) -> Recipe:
     """The recipe of a problem. Raises NoPoint for a relation of a form that is not solved here."""
     found = exactly(problem, ways)
     definite = []
-    positive = set()
+    positive, nonnegative = set(), set()
     for assumption in problem.given:
         names = _plain_names(problem, assumption)
         if assumption.kind.startswith("positive_") and None not in names:
             definite.append((tuple(n for n in names if n), assumption.size))
-        elif assumption.kind in ("positive", "nonnegative") and names[0]:
+        elif assumption.kind == "positive" and names[0]:
             positive.add(names[0])
-    return Recipe(problem, tuple(found), tuple(definite), frozenset(positive), _root_degree(problem))
+        elif assumption.kind == "nonnegative" and names[0]:
+            nonnegative.add(names[0])
+    return Recipe(
+        problem,
+        tuple(found),
+        tuple(definite),
+        frozenset(positive),
+        frozenset(nonnegative),
+        _root_degree(problem),
+    )
 
 
 def points(problem: Problem, seed: int = 1) -> Iterator[Place]:
@@ -128,10 +138,11 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
     root = made.root if attempt % 2 == 0 else 1
     least = int(name in made.positive)
     value = Fraction(generator.randint(least, height + 1), generator.randint(1, height)) ** root
-    if name not in made.positive and generator.random() < 0.5:
+    signed = name not in made.positive and name not in made.nonnegative
+    if signed and generator.random() < 0.5:
         value = -value
     shift = attempt // 4 % MOST_SHIFTS
-    if name in made.positive:
+    if not signed:
         return value * Fraction(2) ** generator.choice((0, shift))
     return value / Fraction(2) ** generator.choice((shift, generator.randint(0, shift)))
 

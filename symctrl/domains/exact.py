@@ -1,8 +1,8 @@
 """The exact domain: rational functions over Q in generators, reduced by relations.
 
 A value is a sum of fractions, {denominator: numerator}, over a table of irreducible factors found when
-something is inverted. Sums are not put over a common denominator; relations are applied where it must be known
-whether a value is zero. What no ring operation covers becomes an opaque generator with its relations
+something is inverted. Sums are not put over a common denominator; relations are applied where it must be
+known whether a value is zero. What no ring operation covers becomes an opaque generator with its relations
 (symctrl.domains.opaque).
 """
 

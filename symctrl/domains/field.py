@@ -1,8 +1,8 @@
 """The algebra under the exact domain: polynomials in generators, a table of factors, and relations.
 
 Generators rank by their index (a later one is higher, lexicographic order): free symbols, and opaque ones (a
-root, a sine, an absolute value), each defined over earlier generators. FLINT fixes the number of variables of a
-context, so spare ones are reserved and taken from the lowest up.
+root, a sine, an absolute value), each defined over earlier generators. FLINT fixes the number of variables of
+a context, so spare ones are reserved and taken from the lowest up.
 """
 
 from __future__ import annotations

@@ -84,6 +84,15 @@ class Numbers(Domain[Any]):
     def constant(self, value: Fraction) -> Any:
         return mpmath.mpf(value.numerator) / value.denominator
 
+    def add_(self, a: Any, b: Any) -> Any:
+        return a + b
+
+    def mul_(self, a: Any, b: Any) -> Any:
+        return a * b
+
+    def inv_(self, a: Any) -> Any:
+        return self.operation("INV")(a)
+
     def operation(self, op: str) -> Callable[..., Any]:
         def evaluate(*args: Any) -> Any:
             if op in BELOW_ZERO and args[0] < 0:
