@@ -31,15 +31,14 @@ DECIDERS: Mapping[str, Decider] = {
 }
 
 
-class KernelDisagrees(RuntimeError):  # noqa: N818
-    """The kernel does not accept what a decider found: an error of the tool, to be reported."""
+NOT_ACCEPTED = "the kernel does not accept what was found"
 
 
 def decide(problem: Problem) -> Verdict:
     """The verdict of one problem: first with its definitions closed, then, if that proves nothing, with all
     opened.
 
-    Raises KernelDisagrees, an error of the tool.
+    A proof or a witness that the kernel does not accept is none.
     """
     for simpler in closings(problem):
         found = _decide(simpler)
@@ -72,15 +71,14 @@ def _proved(problem: Problem, found: Attempt) -> Verdict:
     draft = certificate(problem.statement(), found.proof)
     try:
         conditions = needed_conditions(json.dumps(draft))
-    except Invalid as error:
-        raise KernelDisagrees(
-            f"{problem.study}/{problem.id}: the kernel does not accept the proof: {error}"
-        ) from error
-    except Declined as error:
-        return Verdict(
-            Outcome.UNDECIDED, f"a proof was found that the kernel declines: {error}", found.method
-        )
+    except (Invalid, Declined) as error:
+        return _not_accepted("proof", str(error))
+    if not conditions:  # then the kernel has just verified this very certificate
+        return Verdict(Outcome.PROVED, found.reason, found.method, (), draft)
     made = certificate(problem.statement([{"kind": c.kind, "of": c.of} for c in conditions]), found.proof)
+    answer = check_text(json.dumps(made))
+    if answer.status != "valid":
+        return _not_accepted("proof", answer.reason)
     kept = tuple(Condition(c.kind, c.of) for c in conditions)
     return Verdict(Outcome.PROVED, found.reason, found.method, kept, made)
 
@@ -90,12 +88,11 @@ def _refuted(problem: Problem, found: Attempt) -> Verdict:
     assert found.witness is not None
     made = certificate(problem.statement(), found.witness.proof(problem))
     answer = check_text(json.dumps(made))
-    if answer.status == "declined":
-        reason = f"a witness was found that the kernel declines: {answer.reason}"
-        return Verdict(Outcome.UNDECIDED, reason, "exact witness")
     if answer.status != "valid":
-        raise KernelDisagrees(
-            f"{problem.study}/{problem.id}: the kernel says {answer.status}: {answer.reason}"
-        )
+        return _not_accepted("witness", answer.reason)
     shown = found.witness.values_json(problem)
     return Verdict(Outcome.REFUTED, found.witness.says, "exact witness", (), made, shown, found.residual)
+
+
+def _not_accepted(what: str, why: str) -> Verdict:
+    return Verdict(Outcome.UNDECIDED, f"{NOT_ACCEPTED}: a {what} was found, but {why}", "exact domain")
