@@ -268,9 +268,15 @@ class TestAngles:
 
     @pytest.mark.parametrize(
         "angle",
-        [{"cos": "3/5", "sin": "3/5"}, {"cos": "0", "sin": "0"}, {"cos": "1"}, {"cos": "1", "sin": "0", "tan": "0"},
-         {"cos": 0.6, "sin": 0.8}, ["3/5", "4/5"]],
-    )  # fmt: skip
+        [
+            {"cos": "3/5", "sin": "3/5"},
+            {"cos": "0", "sin": "0"},
+            {"cos": "1"},
+            {"cos": "1", "sin": "0", "tan": "0"},
+            {"cos": 0.6, "sin": 0.8},
+            ["3/5", "4/5"],
+        ],
+    )
     def test_what_is_no_angle(self, angle):
         with pytest.raises(Invalid):
             refute(sign("nonnegative", ("-", ("COS", "x"), 2), ["x"]), values={"x": angle}, at=0)
