@@ -53,7 +53,7 @@ def test_a_rate_under_a_law_is_the_one_of_sympy():
 
 
 def test_a_second_rate_is_the_one_of_sympy():
-    study, a, w, feedback = pendulum()
+    study, a, _, feedback = pendulum()
     made = problem(study, equal(study.rate(study.rate(a**3, feedback), feedback), 0))
     (rate,) = symbolic(made)
     A, W, k = (sympy.Symbol(name, real=True) for name in ("a", "w", "k"))

@@ -3,8 +3,8 @@
 Roots, absolute values and signs go factor by factor through the irreducible factors of their argument, so
 that sqrt(x) sqrt(y) and sqrt(x y) meet; exponentials, powers with a symbolic exponent, sines and cosines go
 term by term through their argument, so that exp(x + y), sin(2 x + y) and |x|^(g - 1) meet exp(x), sin(x) and
-|x|^g. The generators must be fine enough for everything that occurs (a cube root and a square root need a sixth
-root): where they are not, `Refine` asks for the evaluation to start again with what has been learnt.
+|x|^g. The generators must be fine enough for everything that occurs (a cube root and a square root need a
+sixth root): where they are not, `Refine` asks for the evaluation to start again with what has been learnt.
 """
 
 from __future__ import annotations

@@ -42,8 +42,8 @@ def both(name):
 
 
 HOLD = (
-    "what belongs to the node goes out", "linear", "square", "both directions", "differences add up to nothing",
-    "handshake",
+    "what belongs to the node goes out", "linear", "square", "both directions",
+    "differences add up to nothing", "handshake",
 )  # fmt: skip
 FAIL = (
     "a neighbour is not the node", "half is missing", "a product of sums", "squares do not add up to nothing",

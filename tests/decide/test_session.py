@@ -11,7 +11,7 @@ from tests.decide.problems import body, problem
 
 
 def test_a_relation_of_the_state_is_known_at_the_node():
-    study, q, w = body()
+    study, q, _ = body()
     made = problem(study, equal(q.vector.T @ q.vector, 1 - q.scalar**2))
     assert exactly(made, lambda s: all(s.domain.is_zero(s.domain.sub_(*s.claim())) for _ in "1"))
     assert exactly(made, lambda s: [a.text for a, _ in s.zeros]) != []
