@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from symctrl.expr import Nonconforming, lift, symbol
 from symctrl.bounds import Bound, claimed
+from symctrl.expr import Nonconforming, lift, symbol
 from symctrl.statements import (
     Statement,
     conforms,
