@@ -169,8 +169,10 @@ def _numbers(tree: Tree, outputs: Sequence[Fraction]) -> list[list[Fraction]]:
     if "kron_identity" in tree:
         n, size = size_of(tree), tree["size"]
         inner = _numbers(tree["kron_identity"], outputs)
-        at = range(n)
-        return [[inner[r // size][c // size] if r % size == c % size else Fraction(0) for c in at] for r in at]
+        return [
+            [inner[r // size][c // size] if r % size == c % size else Fraction(0) for c in range(n)]
+            for r in range(n)
+        ]
     parts = [_numbers(block, outputs) for block in tree["blocks"]]
     rows, before = [], 0
     for part in parts:
