@@ -1,7 +1,7 @@
 """Real certificates with one place altered: refused, or a right proof of the statement that is printed.
 
-That an altered statement holds is confirmed by evaluating it at random admissible points with the engine, which
-shares no code with the kernel.
+That an altered statement holds is confirmed by evaluating it at random admissible points with the engine,
+which shares no code with the kernel.
 """
 
 from __future__ import annotations
