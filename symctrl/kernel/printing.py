@@ -86,8 +86,8 @@ class _Printer:
         listing = self.statement.listings[ref[0]]
         if ref[0] not in self.texts:
             self.texts[ref[0]] = _read_back(listing)
-        long = f"output {ref[1]} of {line(ref[0])} (sha256 {listing.sha256})"
-        return self.texts[ref[0]].get(listing.outputs[ref[1]], long)
+        text = self.texts[ref[0]].get(listing.outputs[ref[1]])
+        return text or f"output {ref[1]} of {line(ref[0])} (sha256 {listing.sha256})"
 
 
 def _matrix(tree: Any, outputs: Sequence[str]) -> str:

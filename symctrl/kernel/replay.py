@@ -219,6 +219,7 @@ class Replay(Domain[Value]):
             self._establish((), below)
             if op == "INV" and self._assuming:
                 for f in (f for key in value for f, _ in key):
+                    self._establish(variables(self.field.factors[f]))
                     self.signs.learn("nonzero", {(): self.field.factors[f]})
             for key, p in value.items():
                 self._establish(variables(p), [f for f, _ in key])
