@@ -7,10 +7,12 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from symctrl.bounds import Statement
 from symctrl.decide.claims import parts, verdict_of
 from symctrl.expr import Nonconforming
 from symctrl.rows import Discharged, Given, Row
-from symctrl.verdict import Outcome, Verdict
+from symctrl.statements import Nonzero
+from symctrl.verdict import Condition, Outcome, Verdict
 from symctrl.written import StudyError
 
 if TYPE_CHECKING:
@@ -23,27 +25,37 @@ def with_conditions(
 ) -> Row:
     """The row with each condition of its proof and who vouches for it.
 
-    An assumption about the trajectory that the study makes, or the exact values of the parameters: found by
-    deciding the claim again with these and seeing which conditions are gone.
+    An assumption about the trajectory that says just this; else, found by deciding the claim again with them
+    and seeing which conditions are gone: all assumptions about the trajectory, then the exact values of the
+    parameters.
     """
-    if not verdict.conditions:
-        return row
     assumed = study.trajectory_assumptions()
-    under = _conditions(study, claim, using, row.id, None, True, store) if assumed else None
-    at_values = _conditions(study, claim, using, row.id, study.all_values(), bool(assumed), store)
-    discharged = []
-    used = False
+    by: dict[str, str] = {}
+    given: dict[Given, None] = {}
     for condition in verdict.conditions:
-        by = None
-        if under is not None and str(condition) not in under:
-            by, used = "assumed along the trajectory", True
-        elif at_values is not None and not _mentions(at_values, str(condition)):
-            by = "the exact values of the study"
-        discharged.append(Discharged(str(condition), by))
-    given = row.given
-    if used:
-        given += tuple(Given(a.claim.text(), "trajectory") for a in assumed)
-    return replace(row, conditions=tuple(discharged), given=given, conditional=used)
+        same = next((a for a in assumed if _says(a.claim, condition)), None)
+        if same is not None:
+            by[str(condition)] = "assumed along the trajectory"
+            given[Given(same.claim.text(), "trajectory")] = None
+    open_ = [str(c) for c in verdict.conditions if str(c) not in by]
+    if open_ and assumed:
+        under = _conditions(study, claim, using, row.id, None, True, store)
+        gone = [c for c in open_ if under is not None and c not in under]
+        by |= dict.fromkeys(gone, "assumed along the trajectory")
+        given |= dict.fromkeys(Given(a.claim.text(), "trajectory") for a in assumed if gone)
+        open_ = [c for c in open_ if c not in by]
+    if open_ and _conditions(study, claim, using, row.id, study.all_values(), bool(assumed), store) == []:
+        by |= dict.fromkeys(open_, "the exact values of the study")
+    discharged = tuple(Discharged(str(c), by.get(str(c))) for c in verdict.conditions)
+    return replace(row, conditions=discharged, given=row.given + tuple(given), conditional=bool(given))
+
+
+def _says(claim: Statement, condition: Condition) -> bool:
+    """Is the assumption that a symbol is not zero (at node i, so at every node) the very condition?"""
+    if not isinstance(claim, Nonzero) or claim.expr.op != "symbol" or condition.kind != "nonzero":
+        return False
+    name = claim.expr.args[0]
+    return condition.of in (name, f"{name.removesuffix('.i')}.j" if name.endswith(".i") else name)
 
 
 def settle(study: Study, rows: Sequence[Row], complete: bool) -> list[Row]:
@@ -141,8 +153,3 @@ def _conditions(
     except Nonconforming:
         return None
     return [str(c) for c in verdict.conditions] if verdict.outcome is Outcome.PROVED else None
-
-
-def _mentions(remaining: list[str], condition: str) -> bool:
-    """At exact values a condition may be left under another form; any that is left keeps all of them open."""
-    return bool(remaining) or condition in remaining
