@@ -6,7 +6,7 @@ inequalities by trying, with smaller and smaller values."""
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
@@ -15,6 +15,7 @@ from symctrl.decide.place import SMALL_GRAPHS, Place, evaluation, free_names, is
 from symctrl.decide.session import exactly
 from symctrl.decide.solve import NoPoint, Sphere, Way, evaluated, ways
 from symctrl.domains.fraction import FractionDomain, NoExactValue
+from symctrl.graph import interpret
 from symctrl.problem import Assumption, Problem, split, star
 
 TRIES_PER_POINT = 60
@@ -26,7 +27,8 @@ class Recipe:
     """How the symbols of a problem are drawn.
 
     ways: to meet the assumed equations. definite: symbols of matrices, with their sizes. root: powers of this
-    degree keep roots rational. positive, nonnegative: symbols that are assumed to be.
+    degree keep roots rational. positive, nonnegative: symbols that are assumed to be. between: the least and
+    the greatest value of a symbol, where numbers bound it.
     """
 
     problem: Problem
@@ -35,6 +37,7 @@ class Recipe:
     positive: frozenset[str]
     nonnegative: frozenset[str]
     root: int
+    between: Mapping[str, tuple[Fraction | None, Fraction | None]]
 
 
 def recipe(problem: Problem) -> Recipe:
@@ -57,6 +60,7 @@ def recipe(problem: Problem) -> Recipe:
         frozenset(positive),
         frozenset(nonnegative),
         _root_degree(problem),
+        _between(problem),
     )
 
 
@@ -135,6 +139,10 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
 
     As attempts fail, what is positive grows and what is not shrinks, which most bounds want.
     """
+    low, high = made.between.get(name, (None, None))
+    if low is not None and high is not None:
+        part = generator.choice((0, 1, Fraction(generator.randint(0, height), height)))
+        return low + (high - low) * part
     root = made.root if attempt % 2 == 0 else 1
     least = int(name in made.positive)
     value = Fraction(generator.randint(least, height + 1), generator.randint(1, height)) ** root
@@ -142,6 +150,8 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
     if signed and generator.random() < 0.5:
         value = -value
     shift = attempt // 4 % MOST_SHIFTS
+    if low is not None or high is not None:
+        return low + abs(value) if low is not None else Fraction(high or 0) - abs(value)
     if not signed:
         return value * Fraction(2) ** generator.choice((0, shift))
     return value / Fraction(2) ** generator.choice((shift, generator.randint(0, shift)))
@@ -181,6 +191,32 @@ def _holds(assumption: Assumption, values: list[Fraction]) -> bool:
     return answer == "positive definite" or (
         answer != "not positive semidefinite" and "semi" in assumption.kind
     )
+
+
+def _between(problem: Problem) -> dict[str, tuple[Fraction | None, Fraction | None]]:
+    """The numbers between which assumptions that are affine in one symbol keep it; 0 as only bound aside."""
+    found: dict[str, tuple[Fraction | None, Fraction | None]] = {}
+    for assumption in problem.given:
+        listing, k = assumption.of[0]
+        tape = problem.listings[listing]
+        name = star(tape.inputs[0]) if len(tape.inputs) == 1 else ""
+        if assumption.kind not in ("positive", "nonnegative") or name not in problem.scalars:
+            continue
+        try:
+            at = [interpret(tape, FractionDomain(), [Fraction(x)])[k] for x in (0, 1, 2)]
+        except NoExactValue:
+            continue
+        slope = at[1] - at[0]
+        if at[2] - at[1] != slope or slope == 0:
+            continue
+        bound = -at[0] / slope
+        low, high = found.get(name, (None, None))
+        if slope > 0:
+            low = bound if low is None else max(low, bound)
+        else:
+            high = bound if high is None else min(high, bound)
+        found[name] = low, high
+    return {name: (low, high) for name, (low, high) in found.items() if high is not None or low != 0}
 
 
 def _plain_names(problem: Problem, assumption: Assumption) -> list[str | None]:
