@@ -7,7 +7,7 @@ reaches, and those of the study's assumptions that speak only of symbols that oc
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -18,7 +18,19 @@ from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
 from symctrl.graph import Instruction, Tape, read, unfolded
 from symctrl.literals import as_sx, is_constant_name
-from symctrl.problem import ADVICE, PROVED, Advice, Assumption, Claim, Meaning, Output, Problem, split, star
+from symctrl.problem import (
+    ADVICE,
+    PROVED,
+    Advice,
+    Assumption,
+    Claim,
+    Meaning,
+    Output,
+    Problem,
+    Use,
+    split,
+    star,
+)
 from symctrl.reach import Reach, pruned, with_motion
 from symctrl.records import Named, Rate, Record, Sum, Undefined
 from symctrl.statements import Definite, Equal, Nonzero
@@ -31,6 +43,15 @@ if TYPE_CHECKING:
 
 class UndefinedLetter(ValueError):  # noqa: N818
     """The claim uses a letter that the paper never defines."""
+
+
+@dataclass(frozen=True)
+class Used:
+    """A proved statement that another uses: its id, its claim, and the digest of its problems."""
+
+    id: str
+    claim: Statement
+    sha256: str
 
 
 class Collector:
@@ -46,7 +67,6 @@ class Collector:
         self.laws: dict[str, dict[str, Output]] = {}
         self.given: list[Assumption] = []
         self.labels: dict[str, str] = {}
-        self._law_in_use: list[str | None] = [None]
 
     def problem(
         self,
@@ -54,7 +74,7 @@ class Collector:
         id_: str,
         hypotheses: Sequence[Statement] = (),
         small: str | None = None,
-        using: Sequence[Statement] = (),
+        using: Sequence[Used] = (),
         expanded: bool = False,
     ) -> Problem:
         """The problem of an equation, a bound, definiteness or conformity, under hypotheses.
@@ -70,9 +90,13 @@ class Collector:
         self._reach("claim")
         for hypothesis in hypotheses:
             self.assume(hypothesis, "parameter")
+        uses = []
         for used in using:
-            if not isinstance(used, Equal):
-                self.assume(used, PROVED)
+            if isinstance(used.claim, Equal):
+                uses.append(Use(used.id, used.sha256, f"using {_label(used.claim.left)}"))
+            else:
+                uses.append(Use(used.id, used.sha256, f"given {len(self.given) + 1}"))
+                self.assume(used.claim, PROVED)
         self._assume_what_occurs()
         advice = self._advice(claim.hint) if isinstance(claim, Bound) and claim.hint else None
         made = Problem(
@@ -87,10 +111,11 @@ class Collector:
             self.laws,
             tuple(self.given),
             advice,
+            tuple(uses),
         )
         for used in using:
-            if isinstance(used, Equal):
-                made = self._replaced(made, used)
+            if isinstance(used.claim, Equal):
+                made = self._replaced(made, used.claim)
         return pruned(made)
 
     def _replaced(self, made: Problem, used: Equal) -> Problem:
@@ -100,7 +125,7 @@ class Collector:
         record = used.left.args[0] if used.left.op == "deferred" else None
         if not isinstance(record, Named | Rate):
             raise StudyError(f"using: {used.text()} has no definition and no rate of one on its left")
-        listing = f"using {used.left.args[0].label}"
+        listing = f"using {record.label}"
         self.add(listing, [used.right])
         self._reach(listing)
         made = replace(
@@ -121,6 +146,12 @@ class Collector:
         if not isinstance(inner, Named | Rate):
             raise StudyError(f"using: {used.text()} is the rate of an expression without a name")
         shown = self._scalars_of(inner, record.body)
+        reach = Reach(made)
+        reach.listing("claim")
+        if any(name in shown and law != record.law for name, law in reach.rated):
+            raise StudyError(
+                f"using: {used.text()} is a rate under the law {record.law}, and the claim takes another"
+            )
         return with_motion(made, inner.label, shown, listing) if shown[0] in made.names else made
 
     def _scalars_of(self, record: Named | Rate, expr: Expr) -> list[str]:
@@ -319,6 +350,11 @@ class Collector:
                     if known & set(component_names(name, node.shape, node.args[2])):
                         occurring.add(kind)
         return bool(occurring - {"parameter"}) or (kinds == {"parameter"} and bool(occurring))
+
+
+def _label(left: Expr) -> str:
+    """The label of a definition or rate; empty for another expression."""
+    return str(left.args[0].label) if left.op == "deferred" else ""
 
 
 def _sides(claim: Statement) -> tuple[list[Expr], str, tuple[int, int]]:

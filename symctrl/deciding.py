@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from symctrl.collect import UndefinedLetter
+from symctrl.collect import UndefinedLetter, Used
 from symctrl.context import noticing_graph, within
-from symctrl.decide.claims import Part, parts, verdict_of
+from symctrl.decide.claims import Part, digest_of, parts, verdict_of
 from symctrl.expr import Nonconforming, lift
 from symctrl.statements import AtValues, Conforms
 from symctrl.verdict import Outcome, Verdict
@@ -45,11 +45,18 @@ def decide(study: Study, entry: Entry, reading: str | None, store: Store | None,
             claim = entry.call(study, reading)
             if is_named(study, entry.corrects or entry.id):
                 claim = Conforms(_body(study, entry, claim))
-            using = tuple(used.call(study) for used in entry.using)
+            using = tuple(_used(study, other) for other in entry.using)
             found = tuple(parts(study, claim, entry.id, using=using))
         except (Nonconforming, UndefinedLetter) as error:
             return Decided(None, (), Verdict(Outcome.ILL_FORMED, str(error)), of_graph=bool(marks))
         return Decided(claim, found, verdict_of(found, store), using, bool(marks))
+
+
+def _used(study: Study, entry: Entry) -> Used:
+    """A statement that another one uses, with its digest."""
+    claim = entry.call(study)
+    using = tuple(_used(study, other) for other in entry.using)
+    return Used(entry.id, claim, digest_of(parts(study, claim, entry.id, using=using)))
 
 
 def is_named(study: Study, id_: str) -> bool:

@@ -91,6 +91,18 @@ class Advice:
 
 
 @dataclass(frozen=True)
+class Use:
+    """A proved statement that the claim rests on, by id and by the digest of its problems.
+
+    listing: what came of it.
+    """
+
+    id: str
+    sha256: str
+    listing: str
+
+
+@dataclass(frozen=True)
 class Problem:
     study: str
     id: str
@@ -103,6 +115,7 @@ class Problem:
     laws: Mapping[str, Mapping[str, Output]] = field(default_factory=dict)
     given: tuple[Assumption, ...] = ()
     advice: Advice | None = None
+    uses: tuple[Use, ...] = ()
 
     def tape(self, listing: str) -> Tape:
         """The instruction list of that name; the one of the advice is called "advice"."""
@@ -112,7 +125,8 @@ class Problem:
 
     def statement(self, conditions: Sequence[Mapping[str, str]] = ()) -> dict[str, Any]:
         """The `statement` of a certificate."""
-        return {
+        uses = [{"id": use.id, "sha256": use.sha256} for use in self.uses]
+        return ({"uses": uses} if uses else {}) | {
             "study": self.study,
             "id": self.id,
             "text": self.text,

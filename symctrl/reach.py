@@ -44,6 +44,7 @@ class Reach:
     read: set[str] = field(default_factory=set)
     moved: set[str] = field(default_factory=set)
     replaced: set[tuple[str, str]] = field(default_factory=set)
+    rated: set[tuple[str, str | None]] = field(default_factory=set)
 
     def listing(self, name: str, level: int = 0, law: str | None = None) -> None:
         if (name, level, law) in self.visits:
@@ -54,6 +55,8 @@ class Reach:
 
     def _name(self, name: str, level: int, law: str | None) -> None:
         self.read.add(name)
+        if level > 0:
+            self.rated.add((name, law))
         meaning = self.tables.names.get(name)
         if meaning is None:
             self._scalar(name, level, law)
@@ -115,6 +118,7 @@ def pruned(problem: Problem, closed: Collection[str] = ()) -> Problem:
         motion={n: of for n, of in problem.motion.items() if n in reach.moved},
         laws=laws,
         given=tuple(kept),
+        uses=tuple(use for use in problem.uses if use.listing in entered),
     )
 
 

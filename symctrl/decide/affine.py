@@ -39,15 +39,57 @@ def by_rows(session: Session, rows: list[list[Exact]], small: str | None) -> Any
 
 
 def by_sum(session: Session, rows: list[list[Exact]], strict: bool) -> Any:
-    """A = sum of g P, known g >= 0, rational semidefinite P; a known g may take the place of a monomial."""
-    parts = _parts(rows)
+    """A = sum of g P, known g >= 0, P assumed or rational and semidefinite; None where it is not shown.
+
+    A known g may take the place of a monomial.
+    """
+    assumed, rest, definite = _without_assumed(session, rows)
+    parts = _parts(rest)
     if parts is None:
         return None
     for chosen in _substituted(session, parts):
-        leaf = _leaf(session, chosen, strict)
-        if leaf is not None:
-            return leaf
+        found = _leaf(session, chosen)
+        if found is not None and (definite or found[1] or not strict) and assumed + found[0]:
+            return {"sum": assumed + found[0]}
     return None
+
+
+def _without_assumed(
+    session: Session, rows: list[list[Exact]]
+) -> tuple[list[Any], list[list[Exact]], bool]:
+    """What is left after taking away multiples of assumed matrices that occur as a whole, and these parts.
+
+    The last says whether one of them is definite and its multiple positive.
+    """
+    found, definite = [], False
+    field, n = session.domain.field, len(rows)
+    multiples = [field.polynomial(1)]
+    signs = session.domain.signs.generator
+    multiples += [field.variable(k) for k, sign in signs.items() if sign == "positive"]
+    for k, assumption in enumerate(session.problem.given):
+        if assumption.size != n or not assumption.kind.startswith("positive_"):
+            continue
+        matrix = [[session.at(assumption.of[r + n * c], {"i": "i"}) for c in range(n)] for r in range(n)]
+        for g in multiples:
+            left = _less(session, rows, matrix, g)
+            if _terms(left) == _terms(rows) - _terms(matrix):
+                rows = left
+                found.append({"of": field.json(g), "given": k})
+                definite = definite or assumption.kind == "positive_definite"
+                break
+    return found, rows, definite
+
+
+def _less(session: Session, rows: list[list[Exact]], matrix: list[list[Exact]], g: Poly) -> list[list[Exact]]:
+    domain, factor = session.domain, session.domain.polynomial(g)
+    return [
+        [domain.sub_(a, domain.mul_(factor, b)) for a, b in zip(row, other, strict=True)]
+        for row, other in zip(rows, matrix, strict=True)
+    ]
+
+
+def _terms(rows: list[list[Exact]]) -> int:
+    return sum(len(p) for row in rows for entry in row for p in entry.values())
 
 
 def lowest(session: Session, value: Exact, small: str) -> Exact:
@@ -89,7 +131,7 @@ def _parts(rows: list[list[Exact]]) -> dict[Monomial, Rows] | None:
 
 
 def _substituted(session: Session, parts: dict[Monomial, Rows]) -> Iterator[list[tuple[Poly, Rows]]]:
-    """The parts as they are, then with each known polynomial in the place of one of its monomials."""
+    """The parts as they are, then with each known polynomial in the place of one of its terms."""
     context = session.domain.field.context
     yield [(context.from_dict({m: 1}), rows) for m, rows in parts.items()]
     for fact, kind in session.domain.signs.facts:
@@ -109,7 +151,8 @@ def _substituted(session: Session, parts: dict[Monomial, Rows]) -> Iterator[list
             yield changed
 
 
-def _leaf(session: Session, chosen: list[tuple[Poly, Rows]], strict: bool) -> Any:
+def _leaf(session: Session, chosen: list[tuple[Poly, Rows]]) -> tuple[list[Any], bool] | None:
+    """The parts of a sum, and whether one is certainly definite; None where one is not semidefinite."""
     found, definite = [], False
     for g, rows in chosen:
         if not any(any(row) for row in rows):
@@ -120,7 +163,7 @@ def _leaf(session: Session, chosen: list[tuple[Poly, Rows]], strict: bool) -> An
             return None
         definite = definite or (sign == "positive" and answer.definiteness == "positive definite")
         found.append({"of": session.domain.field.json(g), "rows": _texts(rows), "proof": answer.leaf})
-    return {"sum": found} if found and (definite or not strict) else None
+    return found, definite
 
 
 def _texts(rows: Rows) -> list[list[str]]:

@@ -11,8 +11,8 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from symctrl.bounds import Statement
-from symctrl.certify import bundle, canonical
-from symctrl.collect import Collector
+from symctrl.certify import bundle, canonical, digest
+from symctrl.collect import Collector, Used
 from symctrl.decide.decision import decide
 from symctrl.kernel.check import check_text
 from symctrl.problem import Problem
@@ -43,7 +43,7 @@ def parts(
     claim: Any,
     id_: str,
     values: Mapping[str, Fraction] | None = None,
-    using: Sequence[Statement] = (),
+    using: Sequence[Used] = (),
 ) -> list[Part]:
     """The problems that a claim consists of. Raises UndefinedLetter, Nonconforming, StudyError."""
     if isinstance(claim, list | tuple):
@@ -64,6 +64,11 @@ def parts(
     if not isinstance(claim, Statement):
         raise StudyError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
     return [made(claim, ())]
+
+
+def digest_of(found: Sequence[Part]) -> str:
+    """The digest of a claim, by which another claim's certificate names it."""
+    return digest([part.problem.sha256 for part in found])
 
 
 def verdict_of(found: Sequence[Part], store: Store | None) -> Verdict:
@@ -104,7 +109,7 @@ def _part(
     study: Study,
     id_: str,
     values: Mapping[str, Fraction] | None,
-    using: Sequence[Statement],
+    using: Sequence[Used],
     claim: Statement,
     hypotheses: Sequence[Statement],
     role: str = "",

@@ -251,6 +251,19 @@ def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
     for k, g in enumerate(field.generators):
         if g.kind in ("root", "abs", "exp", "power"):
             yield field.json(field.variable(k)), field.variable(k)
+        for beside in _beside(session, k):
+            yield field.json(beside), beside
+
+
+def _beside(session: Session, k: int) -> list[Poly]:
+    """|p| - p and |p| + p for an absolute value, 1 - s and 1 + s for a sign: not negative."""
+    field = session.domain.field
+    g = field.generators[k]
+    if g.kind not in ("abs", "sign"):
+        return []
+    inner = g.argument if g.kind == "abs" else field.variable(k)
+    bound = field.variable(k) if g.kind == "abs" else field.polynomial(1)
+    return [bound - inner, bound + inner]
 
 
 def _squares(session: Session, p: Poly) -> list[Poly]:

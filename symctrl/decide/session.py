@@ -111,7 +111,8 @@ class Session:
         """The sum over the neighbours of a node: what belongs to the node goes before the sum."""
         field, other = self.domain.field, OTHER[node]
         result: Exact = {}
-        for key, p in value.items():
+        for key, given in value.items():
+            p = field.normal(given)
             if any(other in field.letters(k) for f, _ in key for k in field.occurring(field.factors[f])):
                 raise Unsupported("a sum over neighbours that divides by what belongs to the neighbour")
             inside = {k for k in field.occurring(p) if other in field.letters(k)}

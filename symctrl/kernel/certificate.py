@@ -103,6 +103,14 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
+class Use:
+    """A proved statement that an assumption or a replaced name came from; the proof here does not lean on it."""
+
+    id: str
+    sha256: str
+
+
+@dataclass(frozen=True, slots=True)
 class Statement:
     """All that is claimed; a table's keys have the node written `*`."""
 
@@ -117,6 +125,7 @@ class Statement:
     given: tuple[Assumption, ...]
     claim: Claim
     conditions: tuple[Condition, ...]
+    uses: tuple[Use, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from symctrl.kernel.certificate import (
     Ref,
     Statement,
     Step,
+    Use,
     digest,
     fields,
     natural,
@@ -49,7 +50,7 @@ ARITY: Mapping[str, int] = {**dict.fromkeys(_UNARY.split(), 1), **dict.fromkeys(
 
 
 def read_statement(value: Any) -> Statement:
-    s = fields(value, Statement.__dataclass_fields__, "statement")
+    s = fields(value, set(Statement.__dataclass_fields__) - {"uses"}, "statement", ("uses",))
     listings = {name: _listing(entry, f"listing {name[:60]!r}") for name, entry in _table(s, "listings")}
     if sum(len(listing.code) for listing in listings.values()) > MAX_INSTRUCTIONS:
         raise Declined(f"the listings have more than {MAX_INSTRUCTIONS} instructions")
@@ -74,7 +75,18 @@ def read_statement(value: Any) -> Statement:
     claim = _claim(s["claim"], listings)
     if claim.small is not None and scalars.get(claim.small) != "parameter":
         raise Declined(f"the claim is about small values of {claim.small[:60]}, which is no parameter of it")
-    return Statement(study, id_, words, listings, scalars, names, motion, laws, given, claim, conditions)
+    uses = tuple(map(_use, typed(s["uses"], list, "uses") if "uses" in s else ()))
+    if "uses" in s and not uses:
+        raise Invalid("uses: an empty list is left out")
+    return Statement(study, id_, words, listings, scalars, names, motion, laws, given, claim, conditions, uses)
+
+
+def _use(value: Any) -> Use:
+    table = fields(value, ("id", "sha256"), "uses")
+    sha256 = text_field(table["sha256"], "uses")
+    if len(sha256) != 64 or set(sha256) - set("0123456789abcdef"):
+        raise Invalid("uses: a digest is 64 hexadecimal digits")
+    return Use(text_field(table["id"], "uses"), sha256)
 
 
 def _table(statement: dict[str, Any], field: str) -> list[tuple[str, Any]]:

@@ -41,6 +41,8 @@ class _Printer:
             of = ", ".join(map(self.formula, given.of))
             about = f" (about {line(given.about)})" if given.about else ""
             yield f"given{about}: {of} {given.kind.replace('_', ' ')}"
+        for use in s.uses:
+            yield f"using the statement {line(use.id)} (sha256 {use.sha256})"
         for condition in s.conditions:
             yield f"if {line(condition.of)} is {condition.kind}"
         for name, meaning in s.names.items():
