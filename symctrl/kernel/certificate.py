@@ -104,7 +104,7 @@ class Condition:
 
 @dataclass(frozen=True, slots=True)
 class Use:
-    """A proved statement that an assumption or a replaced name came from; the proof here does not lean on it."""
+    """A proved statement that an assumption or a replaced name came from; this proof does not lean on it."""
 
     id: str
     sha256: str

@@ -78,7 +78,9 @@ def read_statement(value: Any) -> Statement:
     uses = tuple(map(_use, typed(s["uses"], list, "uses") if "uses" in s else ()))
     if "uses" in s and not uses:
         raise Invalid("uses: an empty list is left out")
-    return Statement(study, id_, words, listings, scalars, names, motion, laws, given, claim, conditions, uses)
+    return Statement(
+        study, id_, words, listings, scalars, names, motion, laws, given, claim, conditions, uses
+    )
 
 
 def _use(value: Any) -> Use:
