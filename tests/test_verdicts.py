@@ -151,7 +151,9 @@ def decided(claim: Any) -> str:
     verdict = verdict_of(parts(study, claim, "claim"), None)
     if verdict.certificate is not None:
         assert check_text(json.dumps(verdict.certificate)).status == "valid"
-    return f"{verdict.outcome.value}: {verdict.reason}" if verdict.certificate is None else verdict.outcome.value
+    return (
+        f"{verdict.outcome.value}: {verdict.reason}" if verdict.certificate is None else verdict.outcome.value
+    )
 
 
 @pytest.mark.parametrize("claim", TRUE, ids=[claim.text()[:60] for claim in TRUE])
