@@ -276,6 +276,24 @@ class ExactDomain(Domain[Exact]):
         total = self.add_(self.add_(a, b), self.scaled(apart, Fraction(side)))
         return self.scaled(total, Fraction(1, 2))
 
+    def asinh_(self, a: Exact) -> Exact:
+        """log(a + root(a² + 1))."""
+        return self._log_with_root(a, 1)
+
+    def acosh_(self, a: Exact) -> Exact:
+        """log(a + root(a² - 1))."""
+        return self._log_with_root(a, -1)
+
+    def _log_with_root(self, a: Exact, side: int) -> Exact:
+        under = self.add_(self.mul_(a, a), self.constant(Fraction(side)))
+        return self.operation("LOG")(self.add_(a, self.operation("SQRT")(under)))
+
+    def atanh_(self, a: Exact) -> Exact:
+        """log((1 + a)/(1 - a))/2."""
+        one = self.constant(Fraction(1))
+        ratio = self.mul_(self.add_(one, a), self.inv_(self.sub_(one, a)))
+        return self.scaled(self.operation("LOG")(ratio), Fraction(1, 2))
+
     def sinh_(self, a: Exact) -> Exact:
         return self._half_difference(a, -1)
 

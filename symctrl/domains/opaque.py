@@ -30,9 +30,6 @@ FUNCTIONS = frozenset(
         "ASIN",
         "ACOS",
         "ATAN",
-        "ASINH",
-        "ACOSH",
-        "ATANH",
         "ERF",
         "ERFINV",
         "FLOOR",
@@ -41,7 +38,7 @@ FUNCTIONS = frozenset(
     ]
 )
 MAX_MULTIPLE = 32  # of an angle: sin(32 x) is a polynomial of degree 32 in sin(x), cos(x)
-ODD = frozenset(["TANH", "ASIN", "ATAN", "ASINH", "ATANH", "ERF", "ERFINV"])
+ODD = frozenset(["TANH", "ASIN", "ATAN", "ERF", "ERFINV"])
 
 
 class NowhereDefined(ValueError):  # noqa: N818

@@ -217,6 +217,32 @@ class Chain(Generic[Value]):
         one = self.constant(n, 1)
         return self.add(n, one, square) if sign > 0 else self.sub(n, one, square)
 
+    def _half(self, n: int, a: Level) -> Level:
+        return self.mul(n, self.constant(n, Fraction(1, 2)), a)
+
+    def _extreme(self, n: int, a: Level, b: Level, side: int) -> Level:
+        """(a + b - |a - b|)/2 is the smaller, (a + b + |a - b|)/2 the larger."""
+        apart = self._function("FABS", n, [self.sub(n, a, b)])
+        total = self.add(n, a, b)
+        return self._half(n, self.add(n, total, apart) if side > 0 else self.sub(n, total, apart))
+
+    def _hyperbolic(self, n: int, a: Level, side: int) -> Level:
+        """(e - 1/e)/2 and (e + 1/e)/2 with e = exp(a)."""
+        e = self._function("EXP", n, [a])
+        r = self.inv(n, e)
+        return self._half(n, self.add(n, e, r) if side > 0 else self.sub(n, e, r))
+
+    def _log_with_root(self, n: int, a: Level, side: int) -> Level:
+        """log(a + root(a^2 + 1)) and log(a + root(a^2 - 1))."""
+        under = self.add(n, self.square(n, a), self.constant(n, side))
+        return self._function("LOG", n, [self.add(n, a, self._function("SQRT", n, [under]))])
+
+    def _area_tangent(self, n: int, a: Level) -> Level:
+        """log((1 + a)/(1 - a))/2."""
+        one = self.constant(n, 1)
+        ratio = self.div(n, self.add(n, one, a), self.sub(n, one, a))
+        return self._half(n, self._function("LOG", n, [ratio]))
+
     def _over_root(self, n: int, a: Level) -> Level:
         return self.inv(n, self._function("SQRT", n, [a]))
 
@@ -233,6 +259,13 @@ _RING: dict[str, Callable[..., Level]] = {
     "TAN": lambda c, n, a: c.div(n, c._function("SIN", n, [a]), c._function("COS", n, [a])),
     "EXPM1": lambda c, n, a: c.sub(n, c._function("EXP", n, [a]), c.constant(n, 1)),
     "LOG1P": lambda c, n, a: c._function("LOG", n, [c.add(n, c.constant(n, 1), a)]),
+    "FMIN": lambda c, n, a, b: c._extreme(n, a, b, -1),
+    "FMAX": lambda c, n, a, b: c._extreme(n, a, b, 1),
+    "SINH": lambda c, n, a: c._hyperbolic(n, a, -1),
+    "COSH": lambda c, n, a: c._hyperbolic(n, a, 1),
+    "ASINH": lambda c, n, a: c._log_with_root(n, a, 1),
+    "ACOSH": lambda c, n, a: c._log_with_root(n, a, -1),
+    "ATANH": lambda c, n, a: c._area_tangent(n, a),
     "HYPOT": lambda c, n, a, b: c._function("SQRT", n, [c.add(n, c.square(n, a), c.square(n, b))]),
 }
 
@@ -245,12 +278,7 @@ _SLOPE: dict[str, Callable[[Chain[Any], int, Level, Level], Level]] = {
     "EXP": lambda c, n, a, v: v,
     "LOG": lambda c, n, a, v: c.inv(n, a),
     "TANH": lambda c, n, a, v: c._one_and_square(n, -1, v),
-    "SINH": lambda c, n, a, v: c._function("COSH", n, [a]),
-    "COSH": lambda c, n, a, v: c._function("SINH", n, [a]),
     "ASIN": lambda c, n, a, v: c._over_root(n, c._one_and_square(n, -1, a)),
     "ACOS": lambda c, n, a, v: c.neg(n, c._over_root(n, c._one_and_square(n, -1, a))),
     "ATAN": lambda c, n, a, v: c.inv(n, c._one_and_square(n, 1, a)),
-    "ASINH": lambda c, n, a, v: c._over_root(n, c._one_and_square(n, 1, a)),
-    "ACOSH": lambda c, n, a, v: c._over_root(n, c.sub(n, c.square(n, a), c.constant(n, 1))),
-    "ATANH": lambda c, n, a, v: c.inv(n, c._one_and_square(n, -1, a)),
 }

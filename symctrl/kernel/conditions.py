@@ -31,7 +31,7 @@ SIGNS: dict[str, SignSet] = {
 }
 MAX_MINOR = 4  # rows
 MAX_MINORS = 1000  # of one size
-_ODD = ("tanh", "sinh", "atan", "asinh", "erf", "asin", "atanh")
+ODD = ("tanh", "atan", "erf", "asin")
 
 
 def product(a: SignSet, b: SignSet) -> SignSet:
@@ -100,8 +100,24 @@ class Signs:
             if key in self._known:
                 found &= product(self._known[key][1], flip)
             found &= self._terms(form)
-            found &= self._beside_known(form)
+            found &= self._beside_known(form) & self._beside_size(form)
         return found
+
+    def _beside_size(self, p: Poly) -> SignSet:
+        """|p| - p, |p| + p, 1 - s and 1 + s for a sign s are not negative."""
+        key, flip, _ = _unit(p)
+        for k in {k for m in p for k, _ in powers(m)}:
+            g = self.table[k]
+            own: Poly = {monomial([(k, 1)]): 1}
+            if g.kind not in ("abs", "sign") or g.base is None:
+                continue
+            one: Poly = {0: 1}
+            size, inner = (own, g.base) if g.kind == "abs" else (one, own)
+            for sign in (1, -1):
+                beside = self.field.ring.add(size, self.field.ring.scale(inner, sign))
+                if beside and _unit(beside)[0] == key:
+                    return product(SIGNS["nonnegative"], product(flip, _unit(beside)[1]))
+        return ANY
 
     def _terms(self, p: Poly) -> SignSet:
         found: SignSet = frozenset((0,))
@@ -136,11 +152,11 @@ class Signs:
     def _by_definition(self, g: Generator) -> SignSet:
         positive, nonnegative = SIGNS["positive"], SIGNS["nonnegative"]
         function = g.name if g.kind == "function" else ""
-        if g.kind == "exp" or function == "cosh":
+        if g.kind == "exp":
             return positive
-        if function in ("acos", "acosh"):
+        if function == "acos":
             return nonnegative
-        if function in _ODD:
+        if function in ODD:
             return self.of_value(g.args[0])
         if g.base is None:
             return ANY

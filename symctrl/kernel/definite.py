@@ -35,7 +35,7 @@ from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.conditions import SIGNS, determinant
 from symctrl.kernel.field import Value
 from symctrl.kernel.matrices import Rows, has_factors, is_dominant
-from symctrl.kernel.polynomial import monomial, powers, variables
+from symctrl.kernel.polynomial import Poly, monomial, powers, variables
 from symctrl.kernel.replay import Replay, require_conditions
 from symctrl.kernel.sums import SumIdentity, SymbolSums
 
@@ -234,16 +234,21 @@ def _by_assumption(test: SumIdentity, matrix: Matrix, k: Any, strict: bool) -> N
 
 
 def _by_sum(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None:
-    """A = sum of g P with g >= 0 and rational P; definite where for one of them g > 0 and P is definite."""
+    """A = sum of g P, g >= 0, P rational or assumed; definite where for one g > 0 and P is definite."""
     field, n = test.replay.field, len(matrix)
     left = [list(row) for row in matrix]
     definite = False
     for part in typed(parts, list, "sum"):
-        table = fields(part, ("of", "rows", "proof"), "sum")
+        given = "given" in typed(part, dict, "sum")
+        table = fields(part, ("of", "given") if given else ("of", "rows", "proof"), "sum")
         g = test.replay.poly(table["of"], "sum")
         signs = test.replay.signs.of_learned(g)
         if not signs <= SIGNS["nonnegative"]:
             raise Invalid(f"{test.replay.signs.printer.poly(g)[:200]} is not known to be nonnegative")
+        if given:
+            sure = _take_assumed(test.replay, left, g, table["given"])
+            definite = definite or (sure and signs == SIGNS["positive"])
+            continue
         rows = [_numbers(row, n, "rows") for row in typed(table["rows"], list, "rows")]
         sure = strict and not definite and signs == SIGNS["positive"]
         if len(rows) != n:
@@ -258,6 +263,18 @@ def _by_sum(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None
             test.require_zero(left[r][c], f"the sum in row {r + 1}, column {c + 1}")
     if strict and not definite:
         raise Invalid("no part of the sum is certainly definite")
+
+
+def _take_assumed(replay: Replay, left: Matrix, g: Poly, k: Any) -> bool:
+    """Subtract g times an assumed matrix; is it assumed definite, not only semidefinite?"""
+    assumption = replay.statement.given[natural(k, len(replay.given), "given")]
+    if not assumption.kind.startswith("positive_") or assumption.size != len(left):
+        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows")
+    for r, row in enumerate(left):
+        for c in range(len(row)):
+            term = replay.field.mul({(): g}, replay.given[k][r + len(left) * c])
+            row[c] = replay.field.sub(row[c], term)
+    return assumption.kind == "positive_definite"
 
 
 def _proves(rows: Rows, leaf: Any, strictly: bool) -> bool:

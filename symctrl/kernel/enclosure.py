@@ -90,12 +90,6 @@ class Enclosure(Domain[Interval]):
     def fabs_(self, a: Interval) -> Interval:
         return absolute(a)
 
-    def fmin_(self, a: Interval, b: Interval) -> Interval:
-        return Interval(min(a.lo, b.lo), min(a.hi, b.hi))
-
-    def fmax_(self, a: Interval, b: Interval) -> Interval:
-        return Interval(max(a.lo, b.lo), max(a.hi, b.hi))
-
     # Powers: x^y = exp(y log x) for x > 0; an integer exponent has a meaning for every base.
 
     def pow_(self, a: Interval, b: Interval) -> Interval:
@@ -143,22 +137,6 @@ class Enclosure(Domain[Interval]):
     def atan_(self, a: Interval) -> Interval:
         return self._rising(a, elementary.atan_at)
 
-    def sinh_(self, a: Interval) -> Interval:
-        """(e^x - e^-x)/2 rises: at each end by itself."""
-        return self._rising(a, self._sinh_at)
-
-    def _sinh_at(self, x: Fraction, bits: int) -> Interval:
-        e = elementary.exp_at(x, bits)
-        return multiply(point(Fraction(1, 2)), subtract(e, inverse(e, bits), bits), bits)
-
-    def cosh_(self, a: Interval) -> Interval:
-        """(e^x + e^-x)/2 rises with |x|."""
-        return self._rising(absolute(a), self._cosh_at)
-
-    def _cosh_at(self, x: Fraction, bits: int) -> Interval:
-        e = elementary.exp_at(x, bits)
-        return multiply(point(Fraction(1, 2)), add(e, inverse(e, bits), bits), bits)
-
     def tanh_(self, a: Interval) -> Interval:
         """1 - 2/(e^2x + 1) rises."""
         return self._rising(a, self._tanh_at)
@@ -166,32 +144,6 @@ class Enclosure(Domain[Interval]):
     def _tanh_at(self, x: Fraction, bits: int) -> Interval:
         part = inverse(add(elementary.exp_at(2 * x, bits), _ONE, bits), bits)
         return subtract(_ONE, multiply(point(2), part, bits), bits)
-
-    def asinh_(self, a: Interval) -> Interval:
-        """log(x + root(x^2 + 1)) rises, and is odd."""
-        return self._rising(a, self._asinh_at)
-
-    def _asinh_at(self, x: Fraction, bits: int) -> Interval:
-        if x < 0:
-            return negative(self._asinh_at(-x, bits))
-        return self.log_(self.add(point(x), self.sqrt_(point(x * x + 1))))
-
-    def acosh_(self, a: Interval) -> Interval:
-        """log(x + root(x^2 - 1)) rises for x >= 1."""
-        if a.hi < 1:
-            raise Undefined("an inverse hyperbolic cosine of a number below one")
-        if a.lo < 1:
-            raise Undecided("an inverse hyperbolic cosine of what may be below one")
-        return self._rising(a, lambda x, _: self.log_(self.add(point(x), self.sqrt_(point(x * x - 1)))))
-
-    def atanh_(self, a: Interval) -> Interval:
-        """log((1 + x)/(1 - x))/2 rises for |x| < 1."""
-        if a.lo >= 1 or a.hi <= -1:
-            raise Undefined("an inverse hyperbolic tangent outside (-1, 1)")
-        if a.magnitude >= 1:
-            raise Undecided("an inverse hyperbolic tangent of what may be outside (-1, 1)")
-        half = point(Fraction(1, 2))
-        return self._rising(a, lambda x, _: self.mul(half, self.log_(point((1 + x) / (1 - x)))))
 
     def asin_(self, a: Interval) -> Interval:
         """atan(x/root(1 - x^2)) rises for |x| < 1; +-pi/2 at the ends."""

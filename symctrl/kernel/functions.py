@@ -15,7 +15,7 @@ from fractions import Fraction
 from typing import NoReturn
 
 from symctrl.kernel.certificate import Declined, Invalid
-from symctrl.kernel.conditions import SIGNS, Signs
+from symctrl.kernel.conditions import ODD, SIGNS, Signs
 from symctrl.kernel.field import Field, Value
 from symctrl.kernel.generators import FUNCTIONS, Generator
 from symctrl.kernel.polynomial import Poly, monomial, powers, variables
@@ -209,12 +209,16 @@ def _whole(step: Step, left: Value) -> int:
 
 
 def _opaque(step: Step, args: list[Value], value: Value) -> None:
+    """The generator of this function and argument; minus it, of an odd function and minus the argument."""
+    field = step.field
     c, generators = _single_term(step, value)
-    g = step.table[generators[0][0]] if len(generators) == 1 and generators[0][1] == 1 and c == 1 else None
+    g = step.table[generators[0][0]] if len(generators) == 1 and generators[0][1] == 1 else None
     if g is None or g.kind != "function" or g.name != step.op.lower():
         step.refuse("the stated value is not the generator of this function")
+    if c != 1 and not (c == -1 and g.name in ODD):
+        step.refuse("the stated value is a multiple of the generator")
     for given, own in zip(args, g.args, strict=True):
-        if not step.field.is_zero(step.field.sub(given, own)):
+        if not field.is_zero(field.sub(given, own) if c == 1 else field.add(given, own)):
             step.refuse("the generator has another argument")
 
 
@@ -246,8 +250,6 @@ def require_defined(signs: Signs, g: Generator, where: str) -> None:
             "log": ("positive", a),
             "asin": ("nonnegative", field.sub(one, square)),
             "acos": ("nonnegative", field.sub(one, square)),
-            "acosh": ("nonnegative", field.sub(a, one)),
-            "atanh": ("positive", field.sub(one, square)),
         }
         if g.name == "atan2":
             needs["atan2"] = ("nonzero", field.add(square, field.mul(g.args[1], g.args[1])))

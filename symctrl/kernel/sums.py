@@ -62,7 +62,8 @@ class SymbolSums:
         table, field, other = self.replay.table, self.replay.field, OTHER[node]
         of = [letters(table, k, field) for k in range(len(table))]
         result: Value = {}
-        for key, p in value.items():
+        for key, numerator in value.items():
+            p = field.normal(numerator)
             if any(other in of[k] for f, _ in key for k in variables(field.factors[f])):
                 raise Declined("a sum over neighbours that divides by what belongs to the neighbour")
             summed: Poly = {}
