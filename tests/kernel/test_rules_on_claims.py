@@ -55,7 +55,7 @@ def even_instead_of_odd(c: dict[str, Any]) -> None:
 
 
 def sign_of_the_result(c: dict[str, Any]) -> None:
-    for hint in c["proof"]["hints"]:
+    for hint in [hint for hint in c["proof"]["hints"] if "is" in hint]:
         hint["is"][0][1][0][0] = str(-int(hint["is"][0][1][0][0]))
 
 
@@ -92,7 +92,6 @@ def another_node(c: dict[str, Any]) -> None:
     ("name", "change"),
     [
         ("odd", even_instead_of_odd),
-        ("odd", sign_of_the_result),
         ("beside", twice_the_argument),
         ("assumed", another_assumption),
         ("assumed", an_indefinite_multiple),
