@@ -14,8 +14,8 @@ from typing import Any
 
 from symctrl.certify import canonical, certificate, listing, tool
 from symctrl.decide.definiteness import Definiteness, decide_matrix
-from symctrl.kernel import definite, witness
 from symctrl.kernel.certificate import Declined, load
+from symctrl.kernel.check import verify
 
 FORMAT = "symctrl-posdef/1"
 MAX_SIZE = 1000
@@ -165,9 +165,7 @@ def _cut(value: Fraction) -> str:
 def _declined(proof: Mapping[str, Any]) -> str:
     """Why the kernel does not check the certificate, "" if it accepts it. Raises Invalid if it refuses it."""
     try:
-        read_back = load(canonical(proof))
-        rule = witness if read_back.proof["kind"] == "witness" else definite
-        rule.verify(read_back.statement, read_back.proof)
+        verify(load(canonical(proof)))
     except Declined as declined:
         return f"the kernel does not check the certificate: {declined}"
     return ""

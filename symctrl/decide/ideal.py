@@ -1,7 +1,8 @@
 """The equations that a problem assumes, completed so that rewriting by leading monomials decides membership.
 
-Buchberger's algorithm (Cox, Little and O'Shea, Ideals, Varieties, and Algorithms, chapter 2) on the assumed equations,
-with the cofactors of each new equation over them: the kernel checks these and takes the equation as one more relation.
+Buchberger's algorithm (Cox, Little and O'Shea, Ideals, Varieties, and Algorithms, chapter 2) on the assumed
+equations, with the cofactors of each new equation over them: the kernel checks these and takes the equation
+as one more relation.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ class Derived:
 
 
 def completed(field: Field, zeros: list[Poly]) -> list[Derived]:
-    """New equations that complete the assumed ones; none where they are complete or the work exceeds its bounds."""
+    """New equations that complete the assumed ones; none if they are complete or the work is too much."""
     one, nothing = field.polynomial(1), field.polynomial(0)
     basis = [
         Derived(p, tuple(one if n == k else nothing for n in range(len(zeros)))) for k, p in enumerate(zeros)
@@ -43,7 +44,7 @@ def completed(field: Field, zeros: list[Poly]) -> list[Derived]:
         rest = _reduced(made, basis)
         if rest.polynomial.is_zero():
             continue
-        if len(rest.polynomial) > MAX_TERMS:
+        if len(rest.polynomial) > MAX_TERMS or rest.polynomial.is_constant():
             return []
         pairs += [(n, len(basis)) for n in range(len(basis))]
         basis.append(rest)
@@ -57,8 +58,10 @@ def _s_polynomial(field: Field, f: Derived, g: Derived) -> Derived | None:
     if not any(x and y for x, y in zip(a, b, strict=True)):
         return None
     common = [max(x, y) for x, y in zip(a, b, strict=True)]
-    left = _monomial(field, [c - x for c, x in zip(common, a, strict=True)]) / f.polynomial.leading_coefficient()
-    right = _monomial(field, [c - y for c, y in zip(common, b, strict=True)]) / g.polynomial.leading_coefficient()
+    left, right = (
+        _monomial(field, [c - x for c, x in zip(common, lead, strict=True)]) / p.leading_coefficient()
+        for lead, p in ((a, f.polynomial), (b, g.polynomial))
+    )
     cofactors = tuple(left * x - right * y for x, y in zip(f.cofactors, g.cofactors, strict=True))
     return Derived(left * f.polynomial - right * g.polynomial, cofactors)
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 from typing import Any, TypeVar
 
+from symctrl.decide.ideal import Derived, completed
 from symctrl.domains.algebra_latex import value_latex
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.exact import ExactDomain
@@ -31,7 +32,7 @@ class Session:
     """The exact domain with the problem's assumptions in it. `totals` are the generators of sums over all
     nodes: name, derivatives, law.
 
-    `zeros` are the numerators of the equations assumed at node i.
+    `zeros` are the numerators of the equations assumed at node i, `derived` what follows from them.
     """
 
     problem: Problem
@@ -39,12 +40,26 @@ class Session:
     environment: Environment = field(init=False)
     totals: dict[int, tuple[str, int, str | None]] = field(default_factory=dict)
     zeros: list[tuple[Assumption, Poly]] = field(default_factory=list)
+    derived: list[tuple[Derived, list[int]]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.environment = Environment(self.problem, self.domain, self.free, self)
         for node in self.nodes():
             for assumption in self.problem.given:
                 self._learn(assumption, {"i": node, "j": "j"} if node == "i" else {"i": node})
+        if len(self.zeros) > 1:
+            self._complete()
+
+    def _complete(self) -> None:
+        """Add what follows from several assumed equations together, where their leading monomials meet."""
+        zeros = [
+            (k, self.domain.fraction(self.at(a.of[0], {"i": "i"}))[0])
+            for k, a in enumerate(self.problem.given)
+            if a.kind == "zero"
+        ]
+        for new in completed(self.domain.field, [p for _, p in zeros]):
+            self.domain.field.add_relation(new.polynomial)
+            self.derived.append((new, [k for k, _ in zeros]))
 
     def nodes(self) -> list[str]:
         """The generic nodes that occur: i, and j where a neighbour does; a problem without a fleet has the
@@ -91,7 +106,14 @@ class Session:
 
     def proof(self, kind: str, **more: Any) -> dict[str, Any]:
         """The proof for the kernel, from what was evaluated."""
-        return {"kind": kind} | self.domain.proof_json() | more
+        field = self.domain.field
+        relations = []
+        for new, given in self.derived:
+            parts = [(k, c) for k, c in zip(given, new.cofactors, strict=True) if not c.is_zero()]
+            of = [[k, field.json(c)] for k, c in parts]
+            relations.append({"poly": field.json(new.polynomial), "of": of})
+        whole = {"kind": kind} | self.domain.proof_json() | more
+        return whole | ({"relations": relations} if relations else {})
 
     def latex(self, value: Exact) -> str:
         """The value over one denominator in LaTeX."""
@@ -150,8 +172,8 @@ class Session:
             rows = [values[r :: assumption.size] for r in range(assumption.size)]
             self._learn_minors(rows, "positive" if assumption.kind == "positive_definite" else "nonnegative")
             return
-        numerator, _ = domain.together(values[0])
         if assumption.kind == "zero":
+            numerator, _ = domain.together(values[0])
             domain.field.add_relation(numerator)
             if binding["i"] == "i" and not numerator.is_zero():
                 self.zeros.append((assumption, numerator))

@@ -157,6 +157,11 @@ class ExactDomain(Domain[Exact]):
 
     def together(self, a: Exact) -> tuple[Poly, Key]:
         """Numerator in normal form, and denominator, of the whole sum."""
+        numerator, key = self.fraction(a)
+        return self.field.normal(numerator), key
+
+    def fraction(self, a: Exact) -> tuple[Poly, Key]:
+        """Numerator as it is, and denominator, of the whole sum."""
         common: dict[int, int] = {}
         for key in a:
             for k, e in key:
@@ -168,7 +173,7 @@ class ExactDomain(Domain[Exact]):
                 if e > have.get(k, 0):
                     scaled = scaled * self.field.factors[k] ** (e - have.get(k, 0))
             total = total + scaled
-        return self.field.normal(total), tuple(sorted(common.items()))
+        return total, tuple(sorted(common.items()))
 
     def is_zero(self, a: Exact) -> bool:
         """Is a zero wherever it is defined on the domain? False means: not shown by the relations."""

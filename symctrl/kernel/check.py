@@ -27,7 +27,7 @@ from symctrl.kernel.certificate import (
 )
 from symctrl.kernel.printing import line, print_statement
 
-# The module that verifies each kind of proof, by `verify(statement, proof)`.
+# The module with the rules of each kind of proof: `needed_conditions(statement, proof)`.
 PROOFS = {
     "identity": "symctrl.kernel.identity",
     "combination": "symctrl.kernel.combination",
@@ -104,8 +104,18 @@ def needed_conditions(text: str) -> list[Condition]:
     return sorted(needed, key=lambda condition: (condition.kind, condition.of))
 
 
+def verify(certificate: Certificate) -> None:
+    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
+    needed = _rules(certificate).needed_conditions(certificate.statement, certificate.proof)
+    listed = set(certificate.statement.conditions)
+    for missing in sorted(needed - listed, key=str):
+        raise Invalid(f"the condition that {missing.of[:200]} is {missing.kind} is needed and not stated")
+    for idle in sorted(listed - needed, key=str):
+        raise Invalid(f"the condition that {idle.of[:200]} is {idle.kind} is stated and not needed")
+
+
 def _verify(certificate: Certificate) -> Answer:
-    _rules(certificate).verify(certificate.statement, certificate.proof)
+    verify(certificate)
     return Answer("valid", "", f"verified by its {certificate.proof['kind']}")
 
 

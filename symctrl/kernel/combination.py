@@ -22,32 +22,19 @@ from symctrl.kernel.certificate import Condition, Invalid, Statement, fields, na
 from symctrl.kernel.conditions import SIGNS
 from symctrl.kernel.field import Value
 from symctrl.kernel.polynomial import Poly
-from symctrl.kernel.replay import Replay, require_conditions
-from symctrl.kernel.sums import SumIdentity, SymbolSums
-
-
-def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
-    require_conditions(statement, needed_conditions(statement, proof))
+from symctrl.kernel.replay import Replay
+from symctrl.kernel.sums import SumIdentity, opened
 
 
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
-    """The conditions under which the proof shows the claim, whatever the statement lists; see `verify`."""
-    if statement.claim.kind not in ("nonnegative", "positive"):
-        raise Invalid(f"a combination proves a sign, not the claim {statement.claim.kind}")
-    fields(proof, ("kind", "generators", "factors", "hints", "entries"), "proof")
-    sums = SymbolSums()
-    replay = Replay(statement, proof, sums)
-    sums.replay = replay
-    replay.assume_given()
-    outputs = replay.claim()
-    test = SumIdentity(replay, sums)
+    """The conditions under which the proof shows the claim. Raises Invalid or Declined where it does not."""
+    test, outputs = opened(statement, proof, ("nonnegative", "positive"), "entries")
     entries = typed(proof["entries"], list, "entries")
     if len(entries) != len(outputs):
         raise Invalid(f"the claim has {len(outputs)} entries, and the proof has {len(entries)}")
     for k, (value, entry) in enumerate(zip(outputs, entries, strict=True)):
         prove_sign(test, value, entry, statement.claim.kind == "positive", f"entry {k}")
-    return replay.close()
+    return test.replay.close()
 
 
 def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where: str) -> None:

@@ -12,12 +12,6 @@ from __future__ import annotations
 from typing import Any
 
 from symctrl.kernel.certificate import Condition, Invalid, Statement, fields
-from symctrl.kernel.replay import require_conditions
-
-
-def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Raises Invalid for another claim, or for a proof or conditions where there is nothing to prove."""
-    require_conditions(statement, needed_conditions(statement, proof))
 
 
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:

@@ -36,30 +36,18 @@ from symctrl.kernel.conditions import SIGNS, determinant
 from symctrl.kernel.field import Value
 from symctrl.kernel.matrices import Rows, has_factors, is_dominant
 from symctrl.kernel.polynomial import Poly, monomial, powers, variables
-from symctrl.kernel.replay import Replay, require_conditions
-from symctrl.kernel.sums import SumIdentity, SymbolSums
+from symctrl.kernel.replay import Replay
+from symctrl.kernel.sums import SumIdentity, opened
 
 MAX_MINORS = 6
 Matrix = list[list[Value]]
 
 
-def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
-    require_conditions(statement, needed_conditions(statement, proof))
-
-
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
-    """The conditions under which the proof shows the claim, whatever the statement lists; see `verify`."""
+    """The conditions under which the proof shows the claim. Raises Invalid or Declined where it does not."""
     claim = statement.claim
-    if claim.kind not in ("positive_definite", "positive_semidefinite"):
-        raise Invalid(f"the proof is one of definiteness, not of the claim {claim.kind}")
-    fields(proof, ("kind", "generators", "factors", "hints", "matrix"), "proof")
-    sums = SymbolSums()
-    replay = Replay(statement, proof, sums)
-    sums.replay = replay
-    replay.assume_given()
-    outputs = replay.claim()
-    test = SumIdentity(replay, sums)
+    test, outputs = opened(statement, proof, ("positive_definite", "positive_semidefinite"), "matrix")
+    replay = test.replay
     strict = claim.kind == "positive_definite"
     if claim.small is None:
         _prove_tree(test, outputs, claim.matrix, proof["matrix"], strict)

@@ -24,6 +24,7 @@ from symctrl.kernel.certificate import (
     Invalid,
     Statement,
     fields,
+    natural,
     rational,
     split_name,
     typed,
@@ -93,6 +94,27 @@ class Replay(Domain[Value]):
                     self.given[k] = entries
                 self._learn(assumption, entries)
         self._assuming = False
+
+    def derive(self, entries: list[Any]) -> None:
+        """Take equations that follow: `poly` = sum over `of` of POLY times the numerator of assumption k."""
+        ring = self.field.ring
+        for n, entry in enumerate(entries):
+            where = f"relation {n}"
+            table = fields(entry, ("poly", "of"), where)
+            p = self.poly(table["poly"], where)
+            left = p
+            for pair in typed(table["of"], list, where):
+                if len(typed(pair, list, where)) != 2:
+                    raise Invalid(f"{where}: a part is [assumption, POLY]")
+                k = natural(pair[0], len(self.given), where)
+                if self.statement.given[k].kind != "zero":
+                    raise Invalid(f"{where}: assumption {k} is no equation")
+                numerator, _ = self.field.fraction(self.given[k][0])
+                left = ring.add(left, ring.scale(ring.mul(self.poly(pair[1], where), numerator), -1))
+            if left or p.keys() <= {0}:
+                raise Invalid(f"{where} does not follow from the assumptions as it says")
+            self._learned.append(relation(p))
+        self._add_relations()
 
     def _is_plain(self, assumption: Assumption) -> bool:
         """Is it about polynomials, which are defined everywhere?"""
@@ -274,12 +296,3 @@ class Replay(Domain[Value]):
             found |= new
             todo += new
         return found
-
-
-def require_conditions(statement: Statement, needed: set[Condition]) -> None:
-    """The statement must list exactly the conditions that its proof needs. Raises Invalid otherwise."""
-    listed = set(statement.conditions)
-    for missing in sorted(needed - listed, key=str):
-        raise Invalid(f"the condition that {missing.of[:200]} is {missing.kind} is needed and not stated")
-    for idle in sorted(listed - needed, key=str):
-        raise Invalid(f"the condition that {idle.of[:200]} is {idle.kind} is stated and not needed")

@@ -12,31 +12,18 @@ from typing import Any
 
 from symctrl.kernel.certificate import Condition, Invalid, Statement, fields, natural, typed
 from symctrl.kernel.combination import prove_sign
-from symctrl.kernel.replay import Replay, require_conditions
-from symctrl.kernel.sums import SumIdentity, SymbolSums
+from symctrl.kernel.sums import opened
 
 MAX_POWER = 4
 
 
-def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
-    require_conditions(statement, needed_conditions(statement, proof))
-
-
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
-    """The conditions under which the proof shows the claim, whatever the statement lists; see `verify`.
+    """The conditions under which the proof shows the claim. Raises Invalid or Declined where it does not.
 
     `entries` has for each entry {"power": n, "terms": ..}: the combination is that of -(left - right)^2n.
     """
-    if statement.claim.kind != "equal":
-        raise Invalid(f"a squeeze does not prove a claim of the kind {statement.claim.kind}")
-    fields(proof, ("kind", "generators", "factors", "hints", "entries"), "proof")
-    sums = SymbolSums()
-    replay = Replay(statement, proof, sums)
-    sums.replay = replay
-    replay.assume_given()
-    outputs = replay.claim()
-    test = SumIdentity(replay, sums)
+    test, outputs = opened(statement, proof, ("equal",), "entries")
+    field = test.replay.field
     count = len(outputs) // 2
     entries = typed(proof["entries"], list, "entries")
     if len(entries) != count:
@@ -47,7 +34,7 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
         n = natural(table.pop("power"), MAX_POWER + 1, where)
         if n == 0:
             raise Invalid(f"{where}: the power 0 says nothing of the difference")
-        difference = replay.field.sub(outputs[k], outputs[count + k])
-        power = replay.field.power(replay.field.mul(difference, difference), n)
-        prove_sign(test, replay.field.neg(power), table, False, where)
-    return replay.close()
+        difference = field.sub(outputs[k], outputs[count + k])
+        power = field.power(field.mul(difference, difference), n)
+        prove_sign(test, field.neg(power), table, False, where)
+    return test.replay.close()

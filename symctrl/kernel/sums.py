@@ -15,10 +15,10 @@ is the sum of the derivatives of its terms.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.certificate import Declined, Invalid, Statement, fields, typed
 from symctrl.kernel.evaluation import Evaluation, Level
 from symctrl.kernel.field import Value
 from symctrl.kernel.generators import letters
@@ -27,6 +27,25 @@ from symctrl.kernel.replay import Replay
 
 OTHER = {"i": "j", "j": "i"}
 Made = tuple[str, int, str | None]  # the name of a total, how often it is differentiated, under which law
+
+
+def opened(
+    statement: Statement, proof: dict[str, Any], claims: Collection[str], *own: str
+) -> tuple[SumIdentity, list[Value]]:
+    """The zero test over the statement as a proof of the given claims evaluates it, and the claim's outputs.
+
+    own: the fields of the proof beside those that every proof has. Raises Invalid, Declined.
+    """
+    if statement.claim.kind not in claims:
+        raise Invalid(f"a proof of the kind {proof['kind']} does not prove the claim {statement.claim.kind}")
+    fields(proof, ("kind", "generators", "factors", "hints", *own), "proof", ("relations",))
+    sums = SymbolSums()
+    replay = Replay(statement, proof, sums)
+    sums.replay = replay
+    replay.assume_given()
+    replay.derive(typed(proof.get("relations", []), list, "relations"))
+    outputs = replay.claim()
+    return SumIdentity(replay, sums), outputs
 
 
 class SymbolSums:

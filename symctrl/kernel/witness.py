@@ -24,6 +24,7 @@ from typing import Any
 
 from symctrl.kernel.certificate import (
     Assumption,
+    Condition,
     Declined,
     Invalid,
     Statement,
@@ -55,14 +56,14 @@ class Point:
     fails: Callable[[Sequence[Interval]], bool]
 
 
-def verify(statement: Statement, proof: dict[str, Any]) -> None:
-    """Returns if the witness shows the claim false. Raises Invalid if it does not, Declined if undecided."""
+def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """None, if the witness shows the claim false. Raises Invalid if it does not, Declined if undecided."""
     place = _read(statement, proof)
     reason = ""
     for bits in BITS:
         try:
             _refute(statement, place, bits)
-            return
+            return set()
         except Undecided as undecided:
             reason = str(undecided)
     raise Declined(f"the witness is not decided with {BITS[-1]} bits: {reason}")

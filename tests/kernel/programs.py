@@ -3,6 +3,7 @@
 import json
 
 from symctrl.certify import certificate, listing
+from symctrl.kernel import check
 from symctrl.kernel.certificate import load
 
 OPS = {"+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV"}
@@ -52,7 +53,7 @@ def statement(claim, listings, scalars=(), given=(), **more):
     }
 
 
-def verify(rule, stated, proof):
-    """The kernel's rule on the certificate of this statement and proof."""
+def verify(stated, proof):
+    """The kernel on the certificate of this statement and proof."""
     read = load(json.dumps(certificate(stated, proof)))
-    rule.verify(read.statement, read.proof)
+    check.verify(read)
