@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from symctrl import Study, conforms, equal, nonnegative, positive_definite
-from symctrl.collect import Collector, UndefinedLetter
+from symctrl.collect import Collector, UndefinedLetter, Used
 from symctrl.expr import symbol
 from symctrl.reach import closings, pruned
 from symctrl.written import StudyError
@@ -96,12 +96,14 @@ def test_a_symbol_that_the_study_does_not_declare_is_named(study):
 def test_using_takes_what_has_a_name_on_its_left(study, left):
     used = study.x if left == "a symbol" else study.rate(study.x * study.y)
     with pytest.raises(StudyError, match=r"^using: "):
-        Collector(study).problem(equal(study.x, 0), "claim", using=[equal(used, 0)])
+        Collector(study).problem(equal(study.x, 0), "claim", using=[Used("other", equal(used, 0), "0" * 64)])
 
 
 def test_using_puts_the_right_side_in_the_place_of_the_name(study):
     claim = equal(study.V(), study.y)
-    made = Collector(study).problem(claim, "claim", using=[equal(study.V(), study.y)])
+    using = [Used("other", equal(study.V(), study.y), "0" * 64)]
+    made = Collector(study).problem(claim, "claim", using=using)
+    assert made.statement()["uses"] == [{"id": "other", "sha256": "0" * 64}]
     assert "V" not in made.listings
     assert set(made.scalars) == {"y"}
 
