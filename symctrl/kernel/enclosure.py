@@ -81,7 +81,7 @@ class Enclosure(Domain[Interval]):
     def function(self, op: str, args: Sequence[Interval]) -> Interval:
         method: Callable[..., Interval] | None = getattr(self, f"{op.lower()}_", None)
         if method is None:
-            raise Declined(f"the kernel has no enclosure of the operation {op[:40]}")
+            raise Declined(f"{op.lower()} has no rule in the kernel")
         return method(*args)
 
     def sqrt_(self, a: Interval) -> Interval:
@@ -164,19 +164,11 @@ class Enclosure(Domain[Interval]):
             return _ZERO
         return self.sub(self._half_pi(), self.asin_(a))
 
-    def atan2_(self, y: Interval, x: Interval) -> Interval:
-        """The angle of (x, y) in (-pi, pi], by the half plane in which the point lies for certain."""
-        if x.lo > 0:
-            return self.atan_(self._ratio(y, x))
-        if y.lo > 0:
-            return self.sub(self._half_pi(), self.atan_(self._ratio(x, y)))
-        if y.hi < 0:
-            return negative(self.add(self._half_pi(), self.atan_(self._ratio(x, y))))
-        if y.sign == 0 and x.sign == -1:
+    def angle(self, cos: Fraction, sin: Fraction) -> Interval:
+        """The angle in (-pi, pi] of a point of the unit circle: 2 atan(sin/(1 + cos)), or pi."""
+        if cos == -1:
             return elementary.pi(self.bits)
-        if y.sign == 0 and x.sign == 0:
-            raise Undefined("the angle of the origin")
-        raise Undecided("an angle near the negative axis or the origin")
+        return self.mul(point(2), self.atan_(point(sin / (1 + cos))))
 
     # Periodic functions.
 
@@ -200,43 +192,10 @@ class Enclosure(Domain[Interval]):
         extremes = [point((-1) ** (k % 2)) for k in range(ceil(turns.lo), floor(turns.hi) + 1)]
         return self._hull(low, high, *extremes)
 
-    # What jumps.
-
     def sign_(self, a: Interval) -> Interval:
         if a.sign is None:
             raise Undecided("the sign of what may be zero")
         return point(a.sign)
-
-    def floor_(self, a: Interval) -> Interval:
-        return _same(floor(a.lo), floor(a.hi))
-
-    def ceil_(self, a: Interval) -> Interval:
-        return _same(ceil(a.lo), ceil(a.hi))
-
-    def lt_(self, a: Interval, b: Interval) -> Interval:
-        return _truth(True if a.hi < b.lo else False if a.lo >= b.hi else None)
-
-    def le_(self, a: Interval, b: Interval) -> Interval:
-        return _truth(True if a.hi <= b.lo else False if a.lo > b.hi else None)
-
-    def eq_(self, a: Interval, b: Interval) -> Interval:
-        return _truth(_equal(a, b))
-
-    def ne_(self, a: Interval, b: Interval) -> Interval:
-        equal = _equal(a, b)
-        return _truth(None if equal is None else not equal)
-
-    def not_(self, a: Interval) -> Interval:
-        return _truth(not _holds(a))
-
-    def and_(self, a: Interval, b: Interval) -> Interval:
-        return _truth(_holds(a) and _holds(b))
-
-    def or_(self, a: Interval, b: Interval) -> Interval:
-        return _truth(_holds(a) or _holds(b))
-
-    def if_else_zero_(self, condition: Interval, a: Interval) -> Interval:
-        return a if _holds(condition) else _ZERO
 
     def _hull(self, *parts: Interval) -> Interval:
         return outward(min(part.lo for part in parts), max(part.hi for part in parts), self.bits)
@@ -263,28 +222,3 @@ def _integer_root(n: int, q: int) -> int:
         middle = (low + high) // 2
         low, high = (middle, high) if middle**q <= n else (low, middle)
     return low
-
-
-def _same(low: int, high: int) -> Interval:
-    if low != high:
-        raise Undecided("a step of what may lie on either side of it")
-    return point(low)
-
-
-def _equal(a: Interval, b: Interval) -> bool | None:
-    if a.hi < b.lo or b.hi < a.lo:
-        return False
-    return True if a.thin and b.thin else None
-
-
-def _truth(value: bool | None) -> Interval:
-    if value is None:
-        raise Undecided("a comparison of numbers that may be equal")
-    return _ONE if value else _ZERO
-
-
-def _holds(a: Interval) -> bool:
-    """A condition holds where it is not zero."""
-    if a.sign is None:
-        raise Undecided("a condition that may be zero")
-    return a.sign != 0

@@ -215,7 +215,7 @@ class Replay(Domain[Value]):
 
     def function(self, op: str, args: Sequence[Value]) -> Value:
         if op not in functions.RULES:
-            raise Declined(f"{op.lower()} has no rule")
+            raise Declined(f"{op.lower()} has no rule in the kernel")
         return self._found(op, list(args))
 
     def _found(self, op: str, args: list[Value]) -> Value:

@@ -90,7 +90,7 @@ def _refute(statement: Statement, place: Point, bits: int) -> None:
 def _enclosed(domain: Enclosure, value: Number) -> Interval:
     if isinstance(value, Fraction):
         return point(value)
-    return domain.atan2_(point(value[1]), point(value[0]))
+    return domain.angle(*value)
 
 
 def _bindings(statement: Statement, assumption: Assumption, graph: Graph) -> Iterator[dict[str, str]]:

@@ -122,14 +122,13 @@ def test_powers_of_powers_are_exact(root, q, p):
 
 
 @settings(max_examples=50, deadline=None)
-@given(ends, ends, inside)
-def test_the_angle_of_a_point(y, x, t):
-    try:
-        found = Chain(Enclosure(64)).operation("ATAN2", 0, [Interval(y, y + t), Interval(x, x + t)])
-    except (Undecided, Undefined):
-        return
-    with mpmath.workprec(PRECISION):
-        assert_inside(mpmath.atan2(real(y + t / 3), real(x + t / 2)), found, mpmath.mpf(2) ** -2000)
+@given(st.fractions(max_denominator=1000), bits)
+def test_the_angle_of_a_point_of_the_unit_circle(t, b):
+    cos, sin = (1 - t * t) / (1 + t * t), 2 * t / (1 + t * t)
+    for c, s in ((cos, sin), (-cos, -sin)):
+        found = Enclosure(b).angle(c, s)
+        with mpmath.workprec(PRECISION):
+            assert_inside(mpmath.atan2(real(s), real(c)), found, mpmath.mpf(2) ** -2000)
 
 
 @pytest.mark.parametrize(
@@ -146,17 +145,6 @@ def test_the_angle_of_a_point(y, x, t):
         ("SQRT", [Fraction(9, 4)], Fraction(3, 2)),
         ("SIGN", [0], 0),
         ("SIGN", [-3], -1),
-        ("FLOOR", [Fraction(-1, 2)], -1),
-        ("CEIL", [Fraction(1, 2)], 1),
-        ("LT", [1, 1], 0),
-        ("LE", [1, 1], 1),
-        ("EQ", [2, 2], 1),
-        ("NE", [2, 2], 0),
-        ("NOT", [0], 1),
-        ("AND", [1, 0], 0),
-        ("OR", [1, 0], 1),
-        ("IF_ELSE_ZERO", [0, 5], 0),
-        ("IF_ELSE_ZERO", [2, 5], 5),
         ("POW", [0, Fraction(1, 3)], 0),
         ("POW", [0, 0], 1),
     ],
@@ -182,14 +170,11 @@ around_zero = Interval(Fraction(-1), Fraction(1))
         ("ATANH", [point(1)], Undefined),
         ("POW", [point(-1), point(Fraction(1, 2))], Undefined),
         ("POW", [point(0), point(Fraction(-1, 2))], Undefined),
-        ("ATAN2", [point(0), point(0)], Undefined),
-        ("ATAN2", [around_zero, point(-1)], Undecided),
         ("SIGN", [around_zero], Undecided),
-        ("FLOOR", [around_zero], Undecided),
-        ("LT", [around_zero, point(0)], Undecided),
-        ("EQ", [around_zero, point(0)], Undecided),
-        ("IF_ELSE_ZERO", [around_zero, point(0)], Undecided),
         ("ERF", [point(1)], Declined),
+        ("FLOOR", [point(1)], Declined),
+        ("ATAN2", [point(1), point(1)], Declined),
+        ("IF_ELSE_ZERO", [point(1), point(1)], Declined),
         ("EXP", [point(10**9)], Declined),
     ],
 )
