@@ -14,8 +14,9 @@ from typing import Any
 
 from symctrl.certify import canonical, certificate, listing, tool
 from symctrl.decide.definiteness import Definiteness, decide_matrix
-from symctrl.kernel.certificate import Declined, load
+from symctrl.kernel.certificate import Declined
 from symctrl.kernel.check import verify
+from symctrl.kernel.loading import load
 
 FORMAT = "symctrl-posdef/1"
 MAX_SIZE = 1000

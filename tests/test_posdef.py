@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from symctrl.kernel import check
-from symctrl.kernel.certificate import load
+from symctrl.kernel.loading import load
 from symctrl.posdef import PosdefError, answer, parse, read
 
 

@@ -18,7 +18,7 @@ from symctrl.decide.session import Session, exactly
 from symctrl.decide.witness import Witness
 from symctrl.domains.field import Exact
 from symctrl.domains.fraction import FractionDomain, NoExactValue
-from symctrl.domains.signs import determinant_of
+from symctrl.domains.matrices import determinant_of
 from symctrl.problem import Problem
 
 TRIES = 60

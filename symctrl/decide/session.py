@@ -15,8 +15,8 @@ from symctrl.domains.algebra_latex import value_latex
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.exact import ExactDomain
 from symctrl.domains.field import Exact, Field, Generator, OutOfGenerators, Poly
+from symctrl.domains.matrices import determinant_of
 from symctrl.domains.opaque import Knowledge, Refine
-from symctrl.domains.signs import determinant_of
 from symctrl.domains.tangent import Pair
 from symctrl.evaluate import Environment
 from symctrl.problem import Assumption, Output, Problem, split, star

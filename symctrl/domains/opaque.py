@@ -13,30 +13,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import lcm
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import flint
 
 from symctrl.domains.domain import Unsupported
-from symctrl.domains.field import Exact, Generator, Key, Poly
+from symctrl.domains.field import Exact, Field, Generator, Key, Poly
+from symctrl.domains.signs import Signs
 
-if TYPE_CHECKING:
-    from symctrl.domains.exact import ExactDomain
-
-FUNCTIONS = frozenset(
-    [
-        "LOG",
-        "TANH",
-        "ASIN",
-        "ACOS",
-        "ATAN",
-        "ERF",
-        "ERFINV",
-        "FLOOR",
-        "CEIL",
-        "ATAN2",
-    ]
-)
+FUNCTIONS = frozenset(["LOG", "TANH", "ASIN", "ACOS", "ATAN", "ERF", "ERFINV", "FLOOR", "CEIL", "ATAN2"])
 MAX_MULTIPLE = 32  # of an angle: sin(32 x) is a polynomial of degree 32 in sin(x), cos(x)
 ODD = frozenset(["TANH", "ASIN", "ATAN", "ERF", "ERFINV"])
 
@@ -72,10 +57,29 @@ class Knowledge:
             raise Refine
 
 
+class Rational(Protocol):
+    """What opaque operations need of the exact domain: its field and signs, and arithmetic on its values."""
+
+    field: Field
+    signs: Signs
+
+    def constant(self, value: Fraction) -> Exact: ...
+    def polynomial(self, p: Poly) -> Exact: ...
+    def add_(self, a: Exact, b: Exact) -> Exact: ...
+    def sub_(self, a: Exact, b: Exact) -> Exact: ...
+    def mul_(self, a: Exact, b: Exact) -> Exact: ...
+    def power(self, a: Exact, exponent: int) -> Exact: ...
+    def scaled(self, a: Exact, factor: Fraction) -> Exact: ...
+    def simplified(self, a: Exact) -> Exact: ...
+    def factored(self, a: Exact) -> tuple[Fraction, Key]: ...
+    def rational(self, a: Exact) -> Fraction | None: ...
+    def is_zero(self, a: Exact) -> bool: ...
+
+
 class Opaque:
     """The opaque operations of one exact domain."""
 
-    def __init__(self, domain: ExactDomain, knowledge: Knowledge) -> None:
+    def __init__(self, domain: Rational, knowledge: Knowledge) -> None:
         self.domain = domain
         self.field = domain.field
         self.knowledge = knowledge

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from symctrl.domains.field import Exact, Field, Poly, coefficient
-
-if TYPE_CHECKING:
-    from symctrl.domains.exact import ExactDomain
+from symctrl.domains.field import Field, Poly, coefficient
 
 NONNEGATIVE_KINDS = frozenset(("root", "abs", "exp", "power"))
 
@@ -80,19 +76,6 @@ def _ratio(p: Poly, q: Poly) -> int | None:
         return None
     c = p.leading_coefficient() / q.leading_coefficient()
     return (1 if c > 0 else -1) if p == q * c else None
-
-
-def determinant_of(domain: ExactDomain, rows: list[list[Exact]]) -> Exact:
-    """The determinant of a small matrix of exact values, by Laplace expansion."""
-    if len(rows) == 1:
-        return rows[0][0]
-    total: Exact = {}
-    for c, entry in enumerate(rows[0]):
-        if entry:
-            minor = determinant_of(domain, [row[:c] + row[c + 1 :] for row in rows[1:]])
-            term = domain.mul_(entry, minor)
-            total = domain.sub_(total, term) if c % 2 else domain.add_(total, term)
-    return total
 
 
 def _both(a: str, b: str) -> str:

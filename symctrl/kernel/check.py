@@ -14,17 +14,8 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from symctrl.kernel.certificate import (
-    MAX_TEXT,
-    Certificate,
-    Condition,
-    Declined,
-    Invalid,
-    Unreadable,
-    load,
-    read,
-    read_all,
-)
+from symctrl.kernel.certificate import MAX_TEXT, Certificate, Condition, Declined, Invalid, Unreadable
+from symctrl.kernel.loading import load, read, read_all
 from symctrl.kernel.printing import line, print_statement
 
 # The module with the rules of each kind of proof: `needed_conditions(statement, proof)`.

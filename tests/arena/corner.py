@@ -33,7 +33,7 @@ CASES: dict[str, tuple[str, Json | str]] = {
     "no_json": ("unreadable", "{"),
     "a_key_twice": ("unreadable", '{"format": "symctrl-certificate/1", "format": "symctrl-certificate/1"}'),
     "not_a_number": ("unreadable", '{"format": "symctrl-certificate/1", "tool": NaN}'),
-    "deep": ("declined", "[" * 100_000),
+    "deep": ("unreadable", "[" * 100_000),
     "rate_defined_through_itself": (
         "declined",
         certificate(

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from symctrl.kernel.certificate import Invalid, Unreadable, load
+from symctrl.kernel.certificate import Invalid, Unreadable
 from symctrl.kernel.check import check_file
+from symctrl.kernel.loading import load
 from tests.arena import build
 
 ROOT = Path(__file__).parent

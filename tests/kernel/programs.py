@@ -4,7 +4,7 @@ import json
 
 from symctrl.certify import certificate, listing
 from symctrl.kernel import check
-from symctrl.kernel.certificate import load
+from symctrl.kernel.loading import load
 
 OPS = {"+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV"}
 

@@ -10,8 +10,9 @@ from hypothesis import given as for_all
 from hypothesis import settings
 from hypothesis import strategies as st
 
-from symctrl.kernel.certificate import Declined, Invalid, Unreadable, digest, load, rational, split_name
+from symctrl.kernel.certificate import Declined, Invalid, Unreadable, digest, rational, split_name
 from symctrl.kernel.check import Answer, check_file, check_text, exit_code
+from symctrl.kernel.loading import load
 from tests.kernel.certificates import certificate, explain, free, given, seal, status
 
 GOOD = certificate(
@@ -68,12 +69,12 @@ def test_what_is_no_certificate_is_unreadable(text):
     assert check_text(text).status == "unreadable"
 
 
-def test_limits_are_declined_before_any_work(monkeypatch):
-    assert check_text("[" * 100_000).status == "declined"
-    assert check_text('{"a":' * 100_000).status == "declined"
+def test_limits_are_kept_before_any_work(monkeypatch):
+    assert check_text("[" * 100_000).status == "unreadable"
+    assert check_text('{"a":' * 100_000).status == "unreadable"
     assert check_text('{"format": ' + "7" * 5000 + "}").status == "declined"
-    monkeypatch.setattr("symctrl.kernel.certificate.MAX_TEXT", 10)
-    assert check_text("x" * 11).status == "declined"
+    monkeypatch.setattr("symctrl.kernel.loading.MAX_TEXT", 10)
+    assert "longer than" in check_text("x" * 11).reason
 
 
 @pytest.mark.parametrize(

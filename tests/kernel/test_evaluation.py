@@ -9,9 +9,10 @@ from fractions import Fraction
 import pytest
 import sympy as sp
 
-from symctrl.kernel.certificate import Declined, Invalid, load
+from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.chain import Domain
 from symctrl.kernel.evaluation import Evaluation, GraphSums, NoSums
+from symctrl.kernel.loading import load
 from tests.kernel.certificates import certificate, given, seal
 
 NAMES = "sqrt sin cos exp log tanh sinh cosh asin acos atan asinh acosh atanh sign"
