@@ -5,7 +5,8 @@ Soundness-critical. Last reviewed 2026-11-24.
 Theorem: a claim "for all values that satisfy the assumptions, .." is false where one choice of values
 satisfies them and contradicts the rest. Numbers are enclosed by intervals (`enclosure`), with more bits
 until the comparison is decided; equality is only ever shown by exact rationals. A claim about fleets is
-one about every graph, so that one graph is enough. A matrix A is not positive semidefinite where x'Ax <
+one about every connected undirected graph of at least two nodes without loops and repeated edges, so that
+one is enough. A matrix A is not positive semidefinite where x'Ax <
 0, and not definite where x'Ax <= 0, x != 0.
 
 Proof fields: `values` {symbol at its node: number} for exactly the free symbols, where {"cos": c, "sin": s}
@@ -17,6 +18,7 @@ claimed, x has n entries for each row.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -37,11 +39,12 @@ from symctrl.kernel.certificate import (
 )
 from symctrl.kernel.enclosure import Enclosure
 from symctrl.kernel.evaluation import Evaluation, GraphSums, NoSums
-from symctrl.kernel.graphs import read_graph
 from symctrl.kernel.interval import Interval, Undecided, point
 from symctrl.kernel.matrices import eliminate
 
 BITS = (64, 256, 1024)
+MAX_EDGES = 10_000
+_NODE = re.compile(r"\w{1,40}")
 Graph = Mapping[str, Sequence[str]]
 Number = Fraction | tuple[Fraction, Fraction]  # a pair is the cosine and sine of an angle
 
@@ -134,7 +137,7 @@ def _read(statement: Statement, proof: dict[str, Any]) -> Point:
     which = "x" if claim.matrix is not None else "at"
     extra = ["graph"] if fleet else []
     fields(proof, ("kind", "values", which, *extra, *wanted), "proof")
-    graph = read_graph(proof["graph"]) if fleet else {}
+    graph = _read_graph(proof["graph"]) if fleet else {}
     binding = {"i" if name == "node" else "j": typed(proof[name], str, name) for name in wanted}
     for node in binding.values():
         if node not in graph:
@@ -145,6 +148,29 @@ def _read(statement: Statement, proof: dict[str, Any]) -> Point:
         raise Invalid("a claim about small values of a gain is not refuted at one value")
     fails = _failure(statement, proof[which])
     return Point(_values(statement, proof["values"], graph), graph, binding, fails)
+
+
+def _read_graph(value: Any) -> Graph:
+    """Node to neighbours, from a list of pairs of names. Raises Invalid for what is no connected graph."""
+    edges = typed(value, list, "graph")
+    if len(edges) > MAX_EDGES:
+        raise Declined(f"a graph with more than {MAX_EDGES} edges")
+    graph: dict[str, list[str]] = {}
+    for edge in edges:
+        for name in typed(edge, list, "an edge"):
+            if type(name) is not str or not _NODE.fullmatch(name) or name in ("i", "j"):
+                raise Invalid(f"graph: {str(name)[:40]!r} is not the name of a node, as i and j are not")
+        if len(edge) != 2 or edge[0] == edge[1] or edge[1] in graph.get(edge[0], ()):
+            raise Invalid(f"graph: {str(edge)[:80]} is not an edge between two nodes, or is there twice")
+        for a, b in (edge, edge[::-1]):
+            graph.setdefault(a, []).append(b)
+    reached = todo = set(list(graph)[:1])
+    while todo:
+        todo = {node for old in todo for node in graph[old]} - reached
+        reached = reached | todo
+    if not graph or len(reached) < len(graph):
+        raise Invalid("graph: not a connected graph with at least two nodes")
+    return graph
 
 
 def _values(statement: Statement, given: Any, graph: Graph) -> dict[str, Number]:
@@ -205,41 +231,27 @@ def _form_fails(kind: str, tree: Any, outputs: Sequence[Interval], x: Sequence[F
     strict = kind == "positive_definite"
     if strict and not any(x):
         raise Invalid("the vector x is zero")
-    return _sign_fails("positive" if strict else "nonnegative", _form(tree, outputs, x))
+    form, _ = _form(tree, outputs, x)
+    return _sign_fails("positive" if strict else "nonnegative", form)
 
 
-def _form(tree: Any, outputs: Sequence[Interval], x: Sequence[Fraction]) -> Interval:
-    """x'Ax for the matrix of a tree."""
-    domain = Enclosure(BITS[-1])
-    total = point(0)
-    for part, entries in _parts(tree, x):
-        for i, row in enumerate(part):
-            for j, k in enumerate(row):
-                if entries[i] and entries[j]:
-                    total = domain.add(total, domain.mul(point(entries[i] * entries[j]), outputs[k]))
-    return total
-
-
-def _parts(tree: Any, x: Sequence[Fraction]) -> Iterator[tuple[list[list[int]], Sequence[Fraction]]]:
-    """The entries of each block on the diagonal, with the part of x that belongs to it."""
-    if "entries" in tree:
-        yield tree["entries"], x
-    elif "congruence" in tree:
+def _form(tree: Any, outputs: Sequence[Interval], x: Sequence[Fraction]) -> tuple[Interval, int]:
+    """x'Ax for the matrix of a tree, which may take only the first entries of x; and how many it takes."""
+    if "congruence" in tree:
         raise Declined("a witness against a congruence")
-    elif "kron_identity" in tree:
-        for k in range(tree["size"]):
-            yield from _parts(tree["kron_identity"], x[k :: tree["size"]])
-    else:
-        start = 0
-        for block in tree["blocks"]:
-            size = _size(block)
-            yield from _parts(block, x[start : start + size])
-            start += size
-
-
-def _size(tree: Any) -> int:
+    domain = Enclosure(BITS[-1])
+    total, size = point(0), 0
     if "entries" in tree:
-        return len(tree["entries"])
-    if "kron_identity" in tree:
-        return int(tree["size"]) * _size(tree["kron_identity"])
-    return sum(map(_size, tree["blocks"]))
+        size = len(tree["entries"])
+        for a, row in zip(x, tree["entries"], strict=False):
+            for b, k in zip(x, row, strict=False):
+                if a and b:
+                    total = domain.add(total, domain.mul(point(a * b), outputs[k]))
+        return total, size
+    blocks, copies = tree.get("blocks", [tree.get("kron_identity")]), tree.get("size", 1)
+    for block in blocks:
+        for k in range(copies):
+            part, taken = _form(block, outputs, x[size + k :: copies])
+            total = domain.add(total, part)
+        size += taken * copies
+    return total, size

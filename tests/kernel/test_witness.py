@@ -2,9 +2,14 @@
 
 from fractions import Fraction
 
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
+from symctrl.kernel import witness
 from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.interval import point
 from tests.kernel.programs import assume, program, statement, verify
 
 EQUAL = {"kind": "equal", "shape": [1, 1]}
@@ -306,3 +311,38 @@ def test_a_definition_is_not_refuted_by_values():
     stated = statement({"kind": "conforms", "shape": [1, 1]}, {"claim": program("x")}, ["x"])
     with pytest.raises(Invalid, match="conforms"):
         refute(stated, values={"x": "1"}, at=0)
+
+
+def dense(tree):
+    """The matrix of a tree whose outputs are the numbers 0, 1, .."""
+    if "entries" in tree:
+        return np.array(tree["entries"])
+    if "kron_identity" in tree:
+        return np.kron(dense(tree["kron_identity"]), np.eye(tree["size"], dtype=int))
+    parts = [dense(block) for block in tree["blocks"]]
+    ends = np.cumsum([0, *(len(part) for part in parts)])
+    whole = np.zeros((ends[-1], ends[-1]), dtype=int)
+    for part, a, b in zip(parts, ends, ends[1:], strict=False):
+        whole[a:b, a:b] = part
+    return whole
+
+
+squares = st.integers(1, 3).flatmap(
+    lambda n: st.lists(st.lists(st.integers(0, 9), min_size=n, max_size=n), min_size=n, max_size=n)
+)
+trees = st.recursive(
+    squares.map(lambda rows: {"entries": rows}),
+    lambda inner: (
+        st.lists(inner, min_size=1, max_size=3).map(lambda blocks: {"blocks": blocks})
+        | st.tuples(inner, st.integers(1, 3)).map(lambda pair: {"kron_identity": pair[0], "size": pair[1]})
+    ),
+    max_leaves=4,
+)
+
+
+@given(trees, st.data())
+def test_the_form_of_a_tree_is_that_of_its_matrix(tree, data):
+    matrix = dense(tree)
+    x = data.draw(st.lists(st.integers(-3, 3), min_size=len(matrix), max_size=len(matrix)))
+    form, size = witness._form(tree, [point(k) for k in range(10)], list(map(Fraction, x)))
+    assert (form.lo, form.hi, size) == (np.array(x) @ matrix @ x, form.lo, len(matrix))
