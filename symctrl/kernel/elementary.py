@@ -18,17 +18,7 @@ from functools import lru_cache
 from math import ceil, floor
 
 from symctrl.kernel.certificate import Declined
-from symctrl.kernel.interval import (
-    Interval,
-    add,
-    inverse,
-    multiply,
-    negative,
-    point,
-    rounded_down,
-    square_root,
-    subtract,
-)
+from symctrl.kernel.interval import Arithmetic, Interval, point, rounded_down
 
 MAX_EXPONENT = 1 << 14  # of exp
 MAX_ANGLE_BITS = 256
@@ -54,7 +44,8 @@ def _series(first: Interval, step: Interval, ratio: Ratio, most: Fraction, bits:
         low, high = min(products) // (q << bits), -(-max(products) // (q << bits))
         total_low, total_high, n = total_low + low, total_high + high, n + 1
     tail = max(abs(low), abs(high))
-    return multiply(first, Interval(Fraction(total_low - tail, one), Fraction(total_high + tail, one)), bits)
+    total = Interval(Fraction(total_low - tail, one), Fraction(total_high + tail, one))
+    return Arithmetic(bits).mul(first, total)
 
 
 def exp_at(x: Fraction, bits: int) -> Interval:
@@ -67,7 +58,7 @@ def exp_at(x: Fraction, bits: int) -> Interval:
     bits += k + GUARD
     result = _series(_ONE, _short(point(x / 2**k), bits), lambda n: (1, n + 1), Fraction(1), bits)
     for _ in range(k):
-        result = multiply(result, result, bits)
+        result = Arithmetic(bits).mul(result, result)
     return result
 
 
@@ -82,50 +73,46 @@ def log_at(x: Fraction, bits: int) -> Interval:
         m, e = m / 2, e + 1
     while m < Fraction(2, 3):
         m, e = m * 2, e - 1
-    part = _atanh(_short(point((m - 1) / (m + 1)), bits), bits)
-    whole = multiply(point(2 * e), _half_log2(bits + abs(e).bit_length()), bits)
-    return add(whole, add(part, part, bits), bits)
+    domain = Arithmetic(bits)
+    part = _odd_series(point((m - 1) / (m + 1)), 1, bits)
+    whole = domain.mul(point(2 * e), _half_log2(bits + abs(e).bit_length()))
+    return domain.add(whole, domain.add(part, part))
+
+
+def _odd_series(z: Interval, side: int, bits: int) -> Interval:
+    """The sum of side^n z^(2n+1)/(2n+1): atanh(z) for side 1, atan(z) for -1; r(n) = (2n+1)/(2n+3) < 1."""
+    domain, z = Arithmetic(bits), _short(z, bits)
+    square = domain.mul(z, z)
+    step = square if side > 0 else domain.neg(square)
+    return _series(z, step, lambda n: (2 * n + 1, 2 * n + 3), Fraction(1), bits)
 
 
 @lru_cache(maxsize=16)
 def _half_log2(bits: int) -> Interval:
-    return _atanh(_short(point(Fraction(1, 3)), bits), bits)
-
-
-def _atanh(z: Interval, bits: int) -> Interval:
-    """r(n) = (2n+1)/(2n+3) < 1."""
-    return _series(z, multiply(z, z, bits), lambda n: (2 * n + 1, 2 * n + 3), Fraction(1), bits)
+    return _odd_series(point(Fraction(1, 3)), 1, bits)
 
 
 @lru_cache(maxsize=16)
 def pi(bits: int) -> Interval:
     """Machin: pi = 16 atan(1/5) - 4 atan(1/239)."""
-    bits += GUARD
-    parts = [multiply(point(c), _atan(point(Fraction(1, q)), bits), bits) for c, q in ((16, 5), (4, 239))]
-    return subtract(parts[0], parts[1], bits)
+    domain = Arithmetic(bits + GUARD)
+    fifth, small = (_odd_series(point(Fraction(1, q)), -1, bits + GUARD) for q in (5, 239))
+    return domain.sub(domain.mul(point(16), fifth), domain.mul(point(4), small))
 
 
 def atan_at(x: Fraction, bits: int) -> Interval:
     if x == 0:
         return point(0)
+    domain = Arithmetic(bits + GUARD)
     if x < 0:
-        return negative(atan_at(-x, bits))
-    bits += GUARD
+        return domain.neg(atan_at(-x, bits))
     if x > 1:
-        half = multiply(point(Fraction(1, 2)), pi(bits), bits)
-        return subtract(half, atan_at(1 / x, bits), bits)
-    z = _short(point(x), bits)
+        return domain.sub(domain.mul(point(Fraction(1, 2)), pi(domain.bits)), atan_at(1 / x, domain.bits))
+    z = _short(point(x), domain.bits)
     for _ in range(2):  # from an angle of at most pi/4 to one of at most pi/16
-        root = square_root(add(_ONE, multiply(z, z, bits), bits), bits)
-        z = multiply(z, inverse(add(_ONE, root, bits), bits), bits)
-    return multiply(point(4), _atan(z, bits), bits)
-
-
-def _atan(z: Interval, bits: int) -> Interval:
-    """r(n) = (2n+1)/(2n+3) < 1."""
-    z = _short(z, bits)
-    square = negative(multiply(z, z, bits))
-    return _series(z, square, lambda n: (2 * n + 1, 2 * n + 3), Fraction(1), bits)
+        root = domain.sqrt_(domain.add(_ONE, domain.mul(z, z)))
+        z = domain.mul(z, domain.inv(domain.add(_ONE, root)))
+    return domain.mul(point(4), _odd_series(z, -1, domain.bits))
 
 
 def sin_at(x: Fraction, bits: int) -> Interval:
@@ -142,27 +129,25 @@ def _turned(x: Fraction, quarter: int, bits: int) -> Interval:
     if size > MAX_ANGLE_BITS:
         return Interval(Fraction(-1), Fraction(1))
     bits += GUARD
-    half = multiply(point(Fraction(1, 2)), pi(bits + 2 * size), bits + 2 * size)
+    domain = Arithmetic(bits + 2 * size)
+    half = domain.mul(point(Fraction(1, 2)), pi(domain.bits))
     k = round(x / half.lo)
-    r = subtract(point(x), multiply(point(k), half, bits + 2 * size), bits + size)
+    r = _short(domain.sub(point(x), domain.mul(point(k), half)), bits)
     if r.magnitude > 1:
         raise Declined("an angle could not be reduced to a quarter turn")
     turn = (k + quarter) % 4
-    value = _cos(_short(r, bits), bits) if turn % 2 else _sin(_short(r, bits), bits)
-    value = negative(value) if turn >= 2 else value
+    value = _quarter(r, turn % 2, bits)
+    value = domain.neg(value) if turn >= 2 else value
     return Interval(max(value.lo, Fraction(-1)), min(value.hi, Fraction(1)))
 
 
-def _sin(r: Interval, bits: int) -> Interval:
-    """r(n) = 1/((2n+2)(2n+3)) <= 1/6 and r^2 <= 1."""
-    square = negative(multiply(r, r, bits))
-    return _series(r, square, lambda n: (1, (2 * n + 2) * (2 * n + 3)), Fraction(1, 6), bits)
-
-
-def _cos(r: Interval, bits: int) -> Interval:
-    """r(n) = 1/((2n+1)(2n+2)) <= 1/2 and r^2 <= 1."""
-    square = negative(multiply(r, r, bits))
-    return _series(_ONE, square, lambda n: (1, (2 * n + 1) * (2 * n + 2)), Fraction(1, 2), bits)
+def _quarter(r: Interval, even: int, bits: int) -> Interval:
+    """cos r for even = 1, with r(n) = 1/((2n+1)(2n+2)) <= 1/2; sin r for 0, with 1/((2n+2)(2n+3)) <= 1/6."""
+    domain = Arithmetic(bits)
+    step = domain.neg(domain.mul(r, r))
+    if even:
+        return _series(_ONE, step, lambda n: (1, (2 * n + 1) * (2 * n + 2)), Fraction(1, 2), bits)
+    return _series(r, step, lambda n: (1, (2 * n + 2) * (2 * n + 3)), Fraction(1, 6), bits)
 
 
 def _short(x: Interval, bits: int) -> Interval:

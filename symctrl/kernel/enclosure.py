@@ -17,66 +17,14 @@ from math import ceil, floor
 
 from symctrl.kernel import elementary
 from symctrl.kernel.certificate import Declined
-from symctrl.kernel.chain import Domain
-from symctrl.kernel.interval import (
-    Interval,
-    Undecided,
-    Undefined,
-    absolute,
-    add,
-    inverse,
-    multiply,
-    negative,
-    outward,
-    point,
-    power,
-    square_root,
-    subtract,
-)
+from symctrl.kernel.interval import Arithmetic, Interval, Undecided, Undefined, outward, point
 
 AtPoint = Callable[[Fraction, int], Interval]
-_ONE, _ZERO = point(1), point(0)
 MAX_ROOT = 64
 
 
-class Enclosure(Domain[Interval]):
-    """The domain of intervals whose ends are rounded outward to about `bits` significant bits."""
-
-    def __init__(self, bits: int) -> None:
-        self.bits = bits
-
-    def constant(self, value: Fraction) -> Interval:
-        return point(value)
-
-    def rational(self, a: Interval) -> Fraction | None:
-        return a.lo if a.thin else None
-
-    def nonzero(self, a: Interval) -> None:
-        if a.sign == 0:
-            raise Undefined("zero, where a number that is not zero is needed")
-        if a.sign is None:
-            raise Undecided("what may be zero, where a number that is not zero is needed")
-
-    def add(self, a: Interval, b: Interval) -> Interval:
-        return add(a, b, self.bits)
-
-    def sub(self, a: Interval, b: Interval) -> Interval:
-        return subtract(a, b, self.bits)
-
-    def mul(self, a: Interval, b: Interval) -> Interval:
-        return multiply(a, b, self.bits)
-
-    def neg(self, a: Interval) -> Interval:
-        return negative(a)
-
-    def inv(self, a: Interval) -> Interval:
-        return inverse(a, self.bits)
-
-    def square(self, a: Interval) -> Interval:
-        return power(a, 2, self.bits)
-
-    def power(self, a: Interval, n: int) -> Interval:
-        return power(a, n, self.bits)
+class Enclosure(Arithmetic):
+    """Interval arithmetic with every function that has a rule."""
 
     def function(self, op: str, args: Sequence[Interval]) -> Interval:
         method: Callable[..., Interval] | None = getattr(self, f"{op.lower()}_", None)
@@ -84,23 +32,17 @@ class Enclosure(Domain[Interval]):
             raise Declined(f"{op.lower()} has no rule in the kernel")
         return method(*args)
 
-    def sqrt_(self, a: Interval) -> Interval:
-        return square_root(a, self.bits)
-
-    def fabs_(self, a: Interval) -> Interval:
-        return absolute(a)
-
     # Powers: x^y = exp(y log x) for x > 0; an integer exponent has a meaning for every base.
 
     def pow_(self, a: Interval, b: Interval) -> Interval:
         if b.thin and b.lo.denominator == 1:
-            return power(a, b.lo.numerator, self.bits)
+            return self.power(a, b.lo.numerator)
         if a.hi < 0:
             raise Undefined("a power of a negative number with an exponent that is not an integer")
         if a.sign == 0 and b.sign is not None:
             if b.sign <= 0:
                 raise Undefined("zero to a negative power")
-            return _ZERO
+            return point(0)
         if a.lo < 0 or (a.lo == 0 and (not b.thin or b.lo < 0)):
             raise Undecided("a power of what may be zero or negative")
         if b.thin:
@@ -110,11 +52,11 @@ class Enclosure(Domain[Interval]):
     def _rational_power(self, x: Fraction, exponent: Fraction) -> Interval:
         """x^(p/q), x >= 0: monotone in x. Exact where x is the q-th power of a rational."""
         if x == 0:
-            return _ZERO
+            return point(0)
         q = exponent.denominator
         root = _exact_root(x, q)
         if root is not None:
-            return power(point(root), exponent.numerator, self.bits)
+            return self.power(point(root), exponent.numerator)
         return self.exp_(self.mul(point(exponent), self.log_(point(x))))
 
     # Monotone functions.
@@ -138,12 +80,9 @@ class Enclosure(Domain[Interval]):
         return self._rising(a, elementary.atan_at)
 
     def tanh_(self, a: Interval) -> Interval:
-        """1 - 2/(e^2x + 1) rises."""
-        return self._rising(a, self._tanh_at)
-
-    def _tanh_at(self, x: Fraction, bits: int) -> Interval:
-        part = inverse(add(elementary.exp_at(2 * x, bits), _ONE, bits), bits)
-        return subtract(_ONE, multiply(point(2), part, bits), bits)
+        """1 - 2/(e^2a + 1), in which a occurs once."""
+        below = self.add(self.exp_(self.mul(point(2), a)), point(1))
+        return self.sub(point(1), self.mul(point(2), self.inv(below)))
 
     def asin_(self, a: Interval) -> Interval:
         """atan(x/root(1 - x^2)) rises for |x| < 1; +-pi/2 at the ends."""
@@ -155,14 +94,14 @@ class Enclosure(Domain[Interval]):
 
     def _asin_at(self, x: Fraction, bits: int) -> Interval:
         if abs(x) == 1:
-            return multiply(point(x / 2), elementary.pi(bits), bits)
-        return self.atan_(self._ratio(point(x), self.sqrt_(point(1 - x * x))))
+            return self.mul(point(x / 2), elementary.pi(bits))
+        return self.atan_(self.mul(point(x), self.inv(self.sqrt_(point(1 - x * x)))))
 
     def acos_(self, a: Interval) -> Interval:
         """pi/2 - asin(x)."""
         if a.thin and a.lo == 1:
-            return _ZERO
-        return self.sub(self._half_pi(), self.asin_(a))
+            return point(0)
+        return self.sub(self.mul(point(Fraction(1, 2)), elementary.pi(self.bits)), self.asin_(a))
 
     def angle(self, cos: Fraction, sin: Fraction) -> Interval:
         """The angle in (-pi, pi] of a point of the unit circle: 2 atan(sin/(1 + cos)), or pi."""
@@ -188,7 +127,7 @@ class Enclosure(Domain[Interval]):
         if a.hi - a.lo > 7:
             return Interval(Fraction(-1), Fraction(1))
         high = at(a.hi, self.bits)
-        turns = self.sub(self._ratio(a, elementary.pi(self.bits)), point(first))
+        turns = self.sub(self.mul(a, self.inv(elementary.pi(self.bits))), point(first))
         extremes = [point((-1) ** (k % 2)) for k in range(ceil(turns.lo), floor(turns.hi) + 1)]
         return self._hull(low, high, *extremes)
 
@@ -199,12 +138,6 @@ class Enclosure(Domain[Interval]):
 
     def _hull(self, *parts: Interval) -> Interval:
         return outward(min(part.lo for part in parts), max(part.hi for part in parts), self.bits)
-
-    def _ratio(self, a: Interval, b: Interval) -> Interval:
-        return multiply(a, inverse(b, self.bits), self.bits)
-
-    def _half_pi(self) -> Interval:
-        return multiply(point(Fraction(1, 2)), elementary.pi(self.bits), self.bits)
 
 
 def _exact_root(x: Fraction, q: int) -> Fraction | None:

@@ -2,7 +2,7 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorem (inclusion): each function below returns an interval that contains the result for all arguments in the
+Theorem (inclusion): each operation returns an interval that contains the result for all arguments in the
 given intervals. Sums, differences and products of intervals take their extremes at end points; rounding moves
 the lower end down and the upper end up. An interval of one point stays exact while its number has at most
 EXACT_BITS bits.
@@ -15,6 +15,7 @@ from fractions import Fraction
 from math import isqrt
 
 from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.chain import Domain
 
 EXACT_BITS = 1 << 14
 MAX_BITS = 1 << 17  # a number with more bits before or after the point is declined
@@ -76,70 +77,78 @@ def outward(lo: Fraction, hi: Fraction, bits: int) -> Interval:
     return Interval(rounded_down(lo, bits), -rounded_down(-hi, bits))
 
 
-def negative(a: Interval) -> Interval:
-    return Interval(-a.hi, -a.lo)
+class Arithmetic(Domain[Interval]):
+    """The domain of intervals whose ends are rounded outward to about `bits` significant bits."""
 
+    def __init__(self, bits: int) -> None:
+        self.bits = bits
 
-def add(a: Interval, b: Interval, bits: int) -> Interval:
-    return outward(a.lo + b.lo, a.hi + b.hi, bits)
+    def constant(self, value: Fraction) -> Interval:
+        return point(value)
 
+    def rational(self, a: Interval) -> Fraction | None:
+        return a.lo if a.thin else None
 
-def subtract(a: Interval, b: Interval, bits: int) -> Interval:
-    return outward(a.lo - b.hi, a.hi - b.lo, bits)
+    def nonzero(self, a: Interval) -> None:
+        if a.sign == 0:
+            raise Undefined("a division by zero, or a rate of |.| at zero")
+        if a.sign is None:
+            raise Undecided("a division by what may be zero, or a rate of |.| there")
 
+    def add(self, a: Interval, b: Interval) -> Interval:
+        return outward(a.lo + b.lo, a.hi + b.hi, self.bits)
 
-def multiply(a: Interval, b: Interval, bits: int) -> Interval:
-    products = (a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi)
-    return outward(min(products), max(products), bits)
+    def sub(self, a: Interval, b: Interval) -> Interval:
+        return outward(a.lo - b.hi, a.hi - b.lo, self.bits)
 
+    def neg(self, a: Interval) -> Interval:
+        return Interval(-a.hi, -a.lo)
 
-def inverse(a: Interval, bits: int) -> Interval:
-    """1/a is monotone on either side of zero. Raises Undefined at zero, Undecided where zero is inside."""
-    if a.sign == 0:
-        raise Undefined("a division by zero")
-    if a.sign is None:
-        raise Undecided("a division by what may be zero")
-    return outward(1 / a.hi, 1 / a.lo, bits)
+    def mul(self, a: Interval, b: Interval) -> Interval:
+        products = (a.lo * b.lo, a.lo * b.hi, a.hi * b.lo, a.hi * b.hi)
+        return outward(min(products), max(products), self.bits)
 
+    def inv(self, a: Interval) -> Interval:
+        """1/a is monotone on either side of zero. Raises Undefined at zero, Undecided where it is inside."""
+        self.nonzero(a)
+        return outward(1 / a.hi, 1 / a.lo, self.bits)
 
-def power(a: Interval, n: int, bits: int) -> Interval:
-    """a^n for an integer n: monotone on each side of zero, and even powers are least at zero; a^0 is 1."""
-    if n < 0:
-        return inverse(power(a, -n, bits), bits)
-    if n == 0:
-        return point(1)
-    if n > MAX_BITS:
-        raise Declined(f"an exponent larger than {MAX_BITS}")
-    if n % 2 == 0:
-        a = absolute(a)
-    return Interval(_power_at(a.lo, n, bits).lo, _power_at(a.hi, n, bits).hi)
+    def square(self, a: Interval) -> Interval:
+        return self.power(a, 2)
+
+    def power(self, a: Interval, n: int) -> Interval:
+        """a^n, n an integer: monotone on each side of zero, and even powers are least at zero; a^0 is 1."""
+        if n < 0:
+            return self.inv(self.power(a, -n))
+        if n > MAX_BITS:
+            raise Declined(f"an exponent larger than {MAX_BITS}")
+        a = self.fabs_(a) if n % 2 == 0 else a
+        return Interval(_power_at(a.lo, n, self.bits + 8).lo, _power_at(a.hi, n, self.bits + 8).hi)
+
+    def fabs_(self, a: Interval) -> Interval:
+        if a.lo >= 0:
+            return a
+        return self.neg(a) if a.hi <= 0 else Interval(Fraction(0), a.magnitude)
+
+    def sqrt_(self, a: Interval) -> Interval:
+        """The root is monotone. Raises Undefined below zero, Undecided where the sign is not known."""
+        if a.hi < 0:
+            raise Undefined("a square root of a negative number")
+        if a.lo < 0:
+            raise Undecided("a square root of what may be negative")
+        return Interval(_root_at(a.lo, self.bits).lo, _root_at(a.hi, self.bits).hi)
 
 
 def _power_at(x: Fraction, n: int, bits: int) -> Interval:
     """x^n by squaring; each step rounds outward."""
-    result, square = point(1), point(x)
+    domain, result, square = Arithmetic(bits), point(1), point(x)
     while n:
         if n % 2:
-            result = multiply(result, square, bits + 8)
+            result = domain.mul(result, square)
         n //= 2
         if n:
-            square = multiply(square, square, bits + 8)
+            square = domain.mul(square, square)
     return result
-
-
-def absolute(a: Interval) -> Interval:
-    if a.lo >= 0:
-        return a
-    return negative(a) if a.hi <= 0 else Interval(Fraction(0), a.magnitude)
-
-
-def square_root(a: Interval, bits: int) -> Interval:
-    """The root is monotone. Raises Undefined below zero, Undecided where the sign is not known."""
-    if a.hi < 0:
-        raise Undefined("a square root of a negative number")
-    if a.lo < 0:
-        raise Undecided("a square root of what may be negative")
-    return Interval(_root_at(a.lo, bits).lo, _root_at(a.hi, bits).hi)
 
 
 def _root_at(x: Fraction, bits: int) -> Interval:
