@@ -13,7 +13,7 @@ constant: its derivative is None, and nothing is asked.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Generic, TypeVar
 
@@ -80,9 +80,6 @@ class Chain(Generic[Value]):
             inner = (inner, None)
         return inner
 
-    def zero(self, level: int) -> Level:
-        return self.constant(level, 0)
-
     def add(self, n: int, a: Level, b: Level) -> Level:
         if a is None or b is None:
             return b if a is None else a
@@ -115,10 +112,8 @@ class Chain(Generic[Value]):
     def square(self, n: int, a: Level) -> Level:
         if n == 0:
             return self.domain.square(a)
-        return self.square(n - 1, a[0]), self.twice(n - 1, self.mul(n - 1, a[0], a[1]))
-
-    def twice(self, n: int, a: Level) -> Level:
-        return self.add(n, a, a)
+        part = self.mul(n - 1, a[0], a[1])
+        return self.square(n - 1, a[0]), self.add(n - 1, part, part)
 
     def inv(self, n: int, a: Level) -> Level:
         """r = 1/a with the derivative -r^2 a'."""
@@ -158,6 +153,8 @@ class Chain(Generic[Value]):
         ring = _RING.get(op)
         if ring is not None:
             return ring(self, n, *args)
+        if op in _COMPOSED:
+            return self._composed(n, _COMPOSED[op], dict(zip("ab", args, strict=False)))
         if op in ("POW", "CONSTPOW"):
             exponent = self._constant(n, args[1])
             if exponent is not None and exponent.denominator == 1:
@@ -182,9 +179,13 @@ class Chain(Generic[Value]):
             return value, None
         if op == "POW":
             return value, self._power_rate(n - 1, inner, [a[1] for a in args], value)
-        if op not in _SLOPE:
+        if op == "FABS":
+            slope = self._abs_slope(n - 1, inner[0])
+        elif op in _SLOPE:
+            slope = self._composed(n - 1, _SLOPE[op], {"a": inner[0], "v": value})
+        else:
             raise Invalid(f"{op.lower()} of what is not constant has no derivative")
-        return value, self.mul(n - 1, _SLOPE[op](self, n - 1, inner[0], value), args[0][1])
+        return value, self.mul(n - 1, slope, args[0][1])
 
     def _power_rate(self, n: int, inner: Sequence[Level], rates: Sequence[Level], value: Level) -> Level:
         """p a^(p-1) a' + a^p log(a) p', each part only where a' or p' is not None."""
@@ -211,40 +212,19 @@ class Chain(Generic[Value]):
             return self.domain.function("SIGN", [a])
         return self._sign(n - 1, a[0]), None
 
-    def _one_and_square(self, n: int, sign: int, a: Level) -> Level:
-        """1 + a^2 or 1 - a^2."""
-        square = self.square(n, a)
-        one = self.constant(n, 1)
-        return self.add(n, one, square) if sign > 0 else self.sub(n, one, square)
-
-    def _half(self, n: int, a: Level) -> Level:
-        return self.mul(n, self.constant(n, Fraction(1, 2)), a)
-
-    def _extreme(self, n: int, a: Level, b: Level, side: int) -> Level:
-        """(a + b - |a - b|)/2 is the smaller, (a + b + |a - b|)/2 the larger."""
-        apart = self._function("FABS", n, [self.sub(n, a, b)])
-        total = self.add(n, a, b)
-        return self._half(n, self.add(n, total, apart) if side > 0 else self.sub(n, total, apart))
-
-    def _hyperbolic(self, n: int, a: Level, side: int) -> Level:
-        """(e - 1/e)/2 and (e + 1/e)/2 with e = exp(a)."""
-        e = self._function("EXP", n, [a])
-        r = self.inv(n, e)
-        return self._half(n, self.add(n, e, r) if side > 0 else self.sub(n, e, r))
-
-    def _log_with_root(self, n: int, a: Level, side: int) -> Level:
-        """log(a + root(a^2 + 1)) and log(a + root(a^2 - 1))."""
-        under = self.add(n, self.square(n, a), self.constant(n, side))
-        return self._function("LOG", n, [self.add(n, a, self._function("SQRT", n, [under]))])
-
-    def _area_tangent(self, n: int, a: Level) -> Level:
-        """log((1 + a)/(1 - a))/2."""
-        one = self.constant(n, 1)
-        ratio = self.div(n, self.add(n, one, a), self.sub(n, one, a))
-        return self._half(n, self._function("LOG", n, [ratio]))
-
-    def _over_root(self, n: int, a: Level) -> Level:
-        return self.inv(n, self._function("SQRT", n, [a]))
+    def _composed(self, n: int, rule: str, given: Mapping[str, Level]) -> Level:
+        """The value of a rule in postfix notation over what is given."""
+        stack: list[Level] = []
+        for word in rule.split():
+            if word in given:
+                stack.append(given[word])
+            elif word[0].isdigit():
+                stack.append(self.constant(n, Fraction(word)))
+            else:
+                count = 2 if word in ("ADD", "SUB", "MUL", "DIV") else 1
+                stack[-count:] = [self.operation(word, n, stack[-count:])]
+        (value,) = stack
+        return value
 
 
 _RING: dict[str, Callable[..., Level]] = {
@@ -254,31 +234,34 @@ _RING: dict[str, Callable[..., Level]] = {
     "DIV": Chain.div,
     "NEG": Chain.neg,
     "SQ": Chain.square,
-    "TWICE": Chain.twice,
+    "TWICE": lambda c, n, a: c.add(n, a, a),
     "INV": Chain.inv,
-    "TAN": lambda c, n, a: c.div(n, c._function("SIN", n, [a]), c._function("COS", n, [a])),
-    "EXPM1": lambda c, n, a: c.sub(n, c._function("EXP", n, [a]), c.constant(n, 1)),
-    "LOG1P": lambda c, n, a: c._function("LOG", n, [c.add(n, c.constant(n, 1), a)]),
-    "FMIN": lambda c, n, a, b: c._extreme(n, a, b, -1),
-    "FMAX": lambda c, n, a, b: c._extreme(n, a, b, 1),
-    "SINH": lambda c, n, a: c._hyperbolic(n, a, -1),
-    "COSH": lambda c, n, a: c._hyperbolic(n, a, 1),
-    "ASINH": lambda c, n, a: c._log_with_root(n, a, 1),
-    "ACOSH": lambda c, n, a: c._log_with_root(n, a, -1),
-    "ATANH": lambda c, n, a: c._area_tangent(n, a),
-    "HYPOT": lambda c, n, a, b: c._function("SQRT", n, [c.add(n, c.square(n, a), c.square(n, b))]),
 }
 
-# The derivative of each function of one argument a, where v is its value.
-_SLOPE: dict[str, Callable[[Chain[Any], int, Level, Level], Level]] = {
-    "SQRT": lambda c, n, a, v: c.inv(n, c.twice(n, v)),
-    "FABS": lambda c, n, a, v: c._abs_slope(n, a),
-    "SIN": lambda c, n, a, v: c._function("COS", n, [a]),
-    "COS": lambda c, n, a, v: c.neg(n, c._function("SIN", n, [a])),
-    "EXP": lambda c, n, a, v: v,
-    "LOG": lambda c, n, a, v: c.inv(n, a),
-    "TANH": lambda c, n, a, v: c._one_and_square(n, -1, v),
-    "ASIN": lambda c, n, a, v: c._over_root(n, c._one_and_square(n, -1, a)),
-    "ACOS": lambda c, n, a, v: c.neg(n, c._over_root(n, c._one_and_square(n, -1, a))),
-    "ATAN": lambda c, n, a, v: c.inv(n, c._one_and_square(n, 1, a)),
+# Operations of a and b by simpler ones, in postfix notation.
+_COMPOSED = {
+    "TAN": "a SIN a COS DIV",
+    "EXPM1": "a EXP 1 SUB",
+    "LOG1P": "1 a ADD LOG",
+    "FMIN": "a b ADD a b SUB FABS SUB 1/2 MUL",
+    "FMAX": "a b ADD a b SUB FABS ADD 1/2 MUL",
+    "SINH": "a EXP a EXP INV SUB 1/2 MUL",
+    "COSH": "a EXP a EXP INV ADD 1/2 MUL",
+    "ASINH": "a a SQ 1 ADD SQRT ADD LOG",
+    "ACOSH": "a a SQ 1 SUB SQRT ADD LOG",
+    "ATANH": "1 a ADD 1 a SUB DIV LOG 1/2 MUL",
+    "HYPOT": "a SQ b SQ ADD SQRT",
+}
+
+# The derivative of each function of one argument a, where v is its value; that of |a| has a rule of its own.
+_SLOPE = {
+    "SQRT": "v TWICE INV",
+    "SIN": "a COS",
+    "COS": "a SIN NEG",
+    "EXP": "v",
+    "LOG": "a INV",
+    "TANH": "1 v SQ SUB",
+    "ASIN": "1 a SQ SUB SQRT INV",
+    "ACOS": "1 a SQ SUB SQRT INV NEG",
+    "ATAN": "1 a SQ ADD INV",
 }

@@ -99,7 +99,7 @@ class Evaluation(Generic[Value]):
             return self.output(meaning.of, binding, level, law)
         if meaning.kind == "rate":
             derivative = self.output(meaning.of, binding, level + 1, effective_law(meaning.law, law))[1]
-            return self.chain.zero(level) if derivative is None else derivative
+            return self.chain.constant(level, 0) if derivative is None else derivative
         return self.sums.value(self, key, node, level, law)
 
 
