@@ -33,9 +33,9 @@ from symctrl.kernel.certificate import (
 )
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.conditions import SIGNS, determinant
-from symctrl.kernel.field import Value
+from symctrl.kernel.field import Field, Value
 from symctrl.kernel.matrices import Rows, has_factors, is_dominant
-from symctrl.kernel.polynomial import Poly, monomial, powers, variables
+from symctrl.kernel.polynomial import monomial, powers, tidy, variables
 from symctrl.kernel.replay import Replay
 from symctrl.kernel.sums import SumIdentity, opened
 
@@ -48,14 +48,12 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     claim = statement.claim
     test, outputs = opened(statement, proof, ("positive_definite", "positive_semidefinite"), "matrix")
     replay = test.replay
-    strict = claim.kind == "positive_definite"
-    if claim.small is None:
-        _prove_tree(test, outputs, claim.matrix, proof["matrix"], strict)
-        return replay.close()
-    _require_free_gain(replay, claim.small, outputs)
-    _prove_tree(test, outputs, claim.matrix, proof["matrix"], strict)
+    if claim.small is not None:
+        _require_free_gain(replay, claim.small, outputs)
+    _prove_tree(test, outputs, claim.matrix, proof["matrix"], claim.kind == "positive_definite")
     for condition, p in replay.signs.needed.items():
-        if condition.kind != "nonzero" and replay.free[claim.small] in replay.behind(variables(p)):
+        gain = {replay.free[claim.small]} if claim.small is not None else set()
+        if condition.kind != "nonzero" and gain & replay.behind(variables(p)):
             raise Declined(f"a condition bounds {claim.small}: {condition.kind} {condition.of[:200]}")
     return replay.close()
 
@@ -97,7 +95,7 @@ def _prove_entries(test: SumIdentity, matrix: Matrix, leaf: Mapping[str, Any], s
     elif leaf.keys() == {"rows"}:
         _by_rows(test, matrix, leaf["rows"])
     elif leaf.keys() == {"given"}:
-        _by_assumption(test, matrix, leaf["given"], strict)
+        _by_sum(test, matrix, [{"of": [["1"]], "given": leaf["given"]}], strict)
     elif leaf.keys() == {"sum"}:
         _by_sum(test, matrix, leaf["sum"], strict)
     else:
@@ -145,24 +143,17 @@ def _numbers(value: Any, n: int, where: str) -> list[Fraction]:
 
 
 def _by_minors(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
-    field, n = test.replay.field, len(matrix)
-    if len(typed(proofs, list, "minors")) != n:
-        raise Invalid(f"the matrix has {n} leading principal minors, and the proof {len(proofs)}")
-    if n > MAX_MINORS:
+    if len(matrix) > MAX_MINORS:
         raise Declined(f"minors of more than {MAX_MINORS} rows")
-    _require_symmetric(test, matrix)
-    for k, proof in enumerate(proofs, start=1):
-        minor = determinant(field, [row[:k] for row in matrix[:k]])
-        prove_sign(test, _lowest(test.replay, minor), proof, strict=True, where=f"minor {k}")
+    sizes = range(1, len(matrix) + 1)
+    minors = [determinant(test.replay.field, [row[:k] for row in matrix[:k]]) for k in sizes]
+    _prove_positive(test, matrix, minors, proofs, "minor")
 
 
 def _by_rows(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
     """In each row the diagonal entry exceeds the sum of the others in magnitude, whose signs are known."""
-    replay = test.replay
-    if len(typed(proofs, list, "rows")) != len(matrix):
-        raise Invalid(f"the matrix has {len(matrix)} rows, and the proof {len(proofs)}")
-    _require_symmetric(test, matrix)
-    for r, (row, proof) in enumerate(zip(matrix, proofs, strict=True)):
+    replay, margins = test.replay, []
+    for r, row in enumerate(matrix):
         left = row[r]
         for c, entry in enumerate(row):
             if c != r and entry:
@@ -170,7 +161,20 @@ def _by_rows(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
                 if not (signs <= SIGNS["nonnegative"] or signs <= {-1, 0}):
                     raise Invalid(f"the sign of the entry in row {r + 1}, column {c + 1} is not known")
                 left = replay.field.sub(left, entry) if 1 in signs else replay.field.add(left, entry)
-        prove_sign(test, _lowest(replay, left), proof, strict=True, where=f"row {r + 1}")
+        margins.append(left)
+    _prove_positive(test, matrix, margins, proofs, "row")
+
+
+def _prove_positive(test: SumIdentity, matrix: Matrix, values: list[Value], proofs: Any, what: str) -> None:
+    """The matrix is symmetric, and each of the values that decide about it is positive."""
+    if len(typed(proofs, list, "the proof")) != len(values):
+        raise Invalid(f"the proof has {len(proofs)} parts, and the matrix {len(values)} rows")
+    for i, row in enumerate(matrix):
+        for j in range(i):
+            where = f"symmetry in row {i + 1}, column {j + 1}"
+            test.require_zero(test.replay.field.sub(row[j], matrix[j][i]), where)
+    for k, (value, proof) in enumerate(zip(values, proofs, strict=True), start=1):
+        prove_sign(test, _lowest(test.replay, value), proof, strict=True, where=f"{what} {k}")
 
 
 def _lowest(replay: Replay, value: Value) -> Value:
@@ -209,60 +213,45 @@ def _behind(replay: Replay, values: Sequence[Value]) -> set[int]:
     return replay.behind(set().union(*map(variables, polynomials)))
 
 
-def _by_assumption(test: SumIdentity, matrix: Matrix, k: Any, strict: bool) -> None:
-    replay, n = test.replay, len(matrix)
-    assumption = replay.statement.given[natural(k, len(replay.given), "given")]
-    kinds = ("positive_definite",) if strict else ("positive_definite", "positive_semidefinite")
-    if assumption.kind not in kinds or assumption.size != n:
-        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows, not what is claimed")
-    for r in range(n):
-        for c in range(n):
-            where = f"the assumed matrix in row {r + 1}, column {c + 1}"
-            test.require_zero(replay.field.sub(matrix[r][c], replay.given[k][r + n * c]), where)
-
-
 def _by_sum(test: SumIdentity, matrix: Matrix, parts: Any, strict: bool) -> None:
     """A = sum of g P, g >= 0, P rational or assumed; definite where for one g > 0 and P is definite."""
-    field, n = test.replay.field, len(matrix)
-    left = [list(row) for row in matrix]
-    definite = False
+    replay, n = test.replay, len(matrix)
+    field, left, definite = replay.field, [list(row) for row in matrix], False
     for part in typed(parts, list, "sum"):
-        given = "given" in typed(part, dict, "sum")
-        table = fields(part, ("of", "given") if given else ("of", "rows", "proof"), "sum")
-        g = test.replay.poly(table["of"], "sum")
-        signs = test.replay.signs.of_learned(g)
+        rest = ("given",) if "given" in typed(part, dict, "sum") else ("rows", "proof")
+        fields(part, ("of", *rest), "sum")
+        g = replay.poly(part["of"], "sum")
+        signs = replay.signs.of_learned(g)
         if not signs <= SIGNS["nonnegative"]:
-            raise Invalid(f"{test.replay.signs.printer.poly(g)[:200]} is not known to be nonnegative")
-        if given:
-            sure = _take_assumed(test.replay, left, g, table["given"])
-            definite = definite or (sure and signs == SIGNS["positive"])
-            continue
-        rows = [_numbers(row, n, "rows") for row in typed(table["rows"], list, "rows")]
-        sure = strict and not definite and signs == SIGNS["positive"]
-        if len(rows) != n:
-            raise Invalid(f"a part of the sum has {len(rows)} rows, and the matrix {n}")
-        definite = _proves(rows, table["proof"], sure) or definite
-        for r in range(n):
-            for c in range(n):
-                term: Value = {(): field.ring.scale(g, rows[r][c])} if rows[r][c] else {}
-                left[r][c] = field.sub(left[r][c], term)
-    for r in range(n):
-        for c in range(n):
-            test.require_zero(left[r][c], f"the sum in row {r + 1}, column {c + 1}")
+            raise Invalid(f"{replay.signs.printer.poly(g)[:200]} is not known to be nonnegative")
+        wanted = strict and not definite and signs == SIGNS["positive"]
+        assumed = "given" in part
+        added, sure = _assumed(replay, part["given"], n) if assumed else _rational(part, n, wanted, field)
+        definite = definite or (sure and wanted)
+        for row, more in zip(left, added, strict=True):
+            row[:] = [field.sub(a, field.mul({(): g}, b)) for a, b in zip(row, more, strict=True)]
+    for r, row in enumerate(left):
+        for c, entry in enumerate(row):
+            test.require_zero(entry, f"the sum in row {r + 1}, column {c + 1}")
     if strict and not definite:
         raise Invalid("no part of the sum is certainly definite")
 
 
-def _take_assumed(replay: Replay, left: Matrix, g: Poly, k: Any) -> bool:
-    """Subtract g times an assumed matrix; is it assumed definite, not only semidefinite?"""
+def _assumed(replay: Replay, k: Any, n: int) -> tuple[Matrix, bool]:
+    """An assumed matrix; is it assumed definite, not only semidefinite?"""
     assumption = replay.statement.given[natural(k, len(replay.given), "given")]
-    if not assumption.kind.startswith("positive_") or assumption.size != len(left):
-        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows")
-    for r, row in enumerate(left):
-        for c in range(len(row)):
-            term = replay.field.mul({(): g}, replay.given[k][r + len(left) * c])
-            row[c] = replay.field.sub(row[c], term)
-    return assumption.kind == "positive_definite"
+    if not assumption.kind.startswith("positive_") or assumption.size != n:
+        raise Invalid(f"assumption {k} says {assumption.kind} of {assumption.size} rows, not what is claimed")
+    return [replay.given[k][r::n] for r in range(n)], assumption.kind == "positive_definite"
+
+
+def _rational(part: dict[str, Any], n: int, strictly: bool, field: Field) -> tuple[Matrix, bool]:
+    """A matrix of numbers that is shown semidefinite; is it shown definite, where that is of use?"""
+    rows = [_numbers(row, n, "rows") for row in typed(part["rows"], list, "rows")]
+    if len(rows) != n:
+        raise Invalid(f"a part of the sum has {len(rows)} rows, and the matrix {n}")
+    sure = _proves(rows, part["proof"], strictly)
+    return [[field.constant(tidy(entry)) for entry in row] for row in rows], sure
 
 
 def _proves(rows: Rows, leaf: Any, strictly: bool) -> bool:
@@ -276,10 +265,3 @@ def _proves(rows: Rows, leaf: Any, strictly: bool) -> bool:
             pass
     prove_leaf(rows, leaf, False)
     return False
-
-
-def _require_symmetric(test: SumIdentity, matrix: Matrix) -> None:
-    for i in range(len(matrix)):
-        for j in range(i):
-            where = f"symmetry in row {i + 1}, column {j + 1}"
-            test.require_zero(test.replay.field.sub(matrix[i][j], matrix[j][i]), where)
