@@ -32,7 +32,8 @@ def show(
     """
     width = console.width if console.is_terminal else None
     lines = _tree(report) if tree else _table(report.rows, width)
-    for line in (*lines, *_summary(report, numbered, strict), Text()):
+    findings = _findings(report.rows, width)
+    for line in (*lines, *findings, *_summary(report, numbered, strict), Text()):
         console.print(line, soft_wrap=True)
 
 
@@ -50,6 +51,24 @@ def _table(rows: Sequence[Row], width: int | None) -> Iterator[Text]:
             yield from _beside(line, reason, used, width)
         else:
             yield from _below(line, reason, width)
+
+
+def _findings(rows: Sequence[Row], width: int | None) -> Iterator[Text]:
+    """What it means that a claim fails, in the author's sentences, each once with its ids."""
+    said: dict[str, list[str]] = {}
+    for row in rows:
+        if row.finding and row.verdict in ("refuted", "ill-formed"):
+            said.setdefault(row.finding, []).append(row.id)
+    if said:
+        yield Text("what it means", style="bold")
+    for sentence, ids in said.items():
+        first, *more = _wrapped(f"{', '.join(ids)}: {sentence}", width)
+        yield Text(f"  {first}")
+        yield from (Text(f"    {line}") for line in more)
+
+
+def _wrapped(text: str, width: int | None) -> list[str]:
+    return textwrap.wrap(text, width - 4) if width else [text]
 
 
 def _beside(line: Text, reason: str, used: int, width: int | None) -> Iterator[Text]:

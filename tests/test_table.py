@@ -139,3 +139,12 @@ def test_what_is_said_of_a_row_is_cut_and_never_lost_in_the_middle_of_the_table(
     lines = shown(report(row_, needy)).splitlines()
     assert all(len(line) < 260 for line in lines)
     assert [line.endswith("…") for line in lines[1:3]] == [True, True]
+
+
+def test_a_finding_is_said_once_with_all_that_it_is_about():
+    found = [replace(REFUTED, id=name, finding="Check twice.") for name in ("first", "other")]
+    holds = row("third", finding="Never said.")
+    text = shown(report(*found, holds))
+    assert "  first, other: Check twice.\n" in text
+    assert text.count("Check twice.") == 1
+    assert "Never said." not in text
