@@ -1,10 +1,9 @@
-"""Certificates as values: strict reading of the JSON form of docs/certificates.md.
+"""Outcomes, names and numbers: strict reading of the smallest parts of a certificate.
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on no theorem, but everything else relies on it: what `load` returns is completely checked for form
-(`form`), each digest is right, and no name is defined through itself (`closure`). What a certificate claims
-is read off these values and from nowhere else.
+Relies on no theorem: a number has one way of being written, a table has exactly its fields, and a name has
+one meaning at each node.
 """
 
 from __future__ import annotations
@@ -12,16 +11,11 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection
 from fractions import Fraction
 from math import gcd
 from typing import Any, TypeVar
 
-FORMAT = "symctrl-certificate/1"
-BUNDLE_FORMAT = "symctrl-certificates/1"
-MAX_PARTS = 1000
-MAX_TEXT = 64 * 2**20
 MAX_DIGITS = 4000
 MAX_STRING = 20_000
 
@@ -36,103 +30,6 @@ class Invalid(ValueError):  # noqa: N818
 
 class Declined(ValueError):  # noqa: N818
     """The kernel has no rule for this, or it exceeds a bound on work: neither valid nor invalid."""
-
-
-Ref = tuple[str, int]  # output k (from 0) of a listing
-
-
-@dataclass(frozen=True, slots=True)
-class Step:
-    """One instruction: `args` are registers, `name` belongs to INPUT and `value` to CONST."""
-
-    op: str
-    args: tuple[int, ...] = ()
-    name: str = ""
-    value: Fraction = Fraction(0)
-
-
-@dataclass(frozen=True, slots=True)
-class Listing:
-    code: tuple[Step, ...]
-    outputs: tuple[int, ...]
-    sha256: str
-
-    @property
-    def letters(self) -> frozenset[str]:
-        """The node letters that the names of its inputs mention."""
-        found = (split_name(step.name)[1] for step in self.code if step.op == "INPUT")
-        return frozenset(letter for letter in found if letter)
-
-
-@dataclass(frozen=True, slots=True)
-class Meaning:
-    """What a name stands for: `kind` is constant, value, rate, sum or total."""
-
-    kind: str
-    value: Fraction = Fraction(0)
-    of: Ref = ("", 0)
-    law: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Assumption:
-    """`of` has one reference for a sign kind, size*size of them (column by column) for a definite kind."""
-
-    kind: str
-    of: tuple[Ref, ...]
-    size: int = 1
-    text: str = ""
-    about: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class Claim:
-    """`matrix` is the checked tree of positions of the outputs for a definite kind, else None."""
-
-    kind: str
-    listing: str
-    shape: tuple[int, int]
-    matrix: Any = None
-    small: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Condition:
-    kind: str
-    of: str
-
-
-@dataclass(frozen=True, slots=True)
-class Use:
-    """A proved statement that an assumption or a replaced name came from; this proof does not lean on it."""
-
-    id: str
-    sha256: str
-
-
-@dataclass(frozen=True, slots=True)
-class Statement:
-    """All that is claimed; a table's keys have the node written `*`."""
-
-    study: str
-    id: str
-    text: str
-    listings: Mapping[str, Listing]
-    scalars: Mapping[str, str]
-    names: Mapping[str, Meaning]
-    motion: Mapping[str, Ref]
-    laws: Mapping[str, Mapping[str, Ref]]
-    given: tuple[Assumption, ...]
-    claim: Claim
-    conditions: tuple[Condition, ...]
-    uses: tuple[Use, ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Certificate:
-    tool: str
-    statement: Statement
-    proof: dict[str, Any]
 
 
 _NAME = re.compile(r"([^\W\d]\w*)(?:\.(\w+|\*))?(\[[1-9]\d{0,8}(?:,[1-9]\d{0,8})?\])?")

@@ -14,9 +14,10 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from symctrl.kernel.certificate import MAX_TEXT, Certificate, Condition, Declined, Invalid, Unreadable
-from symctrl.kernel.loading import load, read, read_all
+from symctrl.kernel.certificate import Declined, Invalid, Unreadable
+from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
 from symctrl.kernel.printing import line, print_statement
+from symctrl.kernel.values import Certificate, Condition
 
 # The module with the rules of each kind of proof: `needed_conditions(statement, proof)`.
 PROOFS = {

@@ -10,16 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from symctrl.kernel.certificate import (
-    Declined,
-    Invalid,
-    Meaning,
-    Ref,
-    Statement,
-    at_node,
-    per_node,
-    split_name,
-)
+from symctrl.kernel.certificate import Declined, Invalid, at_node, per_node, split_name
+from symctrl.kernel.values import Meaning, Ref, Statement
 
 MAX_LEVEL = 4
 MAX_DEPTH = 100

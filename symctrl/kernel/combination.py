@@ -18,12 +18,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Condition, Invalid, Statement, fields, natural, rational, typed
+from symctrl.kernel.certificate import Invalid, fields, natural, rational, typed
 from symctrl.kernel.conditions import SIGNS
 from symctrl.kernel.field import Value
 from symctrl.kernel.polynomial import Poly
 from symctrl.kernel.replay import Replay
 from symctrl.kernel.sums import SumIdentity, opened
+from symctrl.kernel.values import Condition, Statement
 
 
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:

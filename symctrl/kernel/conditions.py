@@ -16,10 +16,11 @@ from fractions import Fraction
 from itertools import combinations
 from math import comb, gcd, lcm
 
-from symctrl.kernel.certificate import Condition, Invalid
+from symctrl.kernel.certificate import Invalid
 from symctrl.kernel.field import Field, Value
 from symctrl.kernel.generators import Generator, Printer
 from symctrl.kernel.polynomial import Number, Poly, monomial, powers, tidy
+from symctrl.kernel.values import Condition
 
 SignSet = frozenset[int]
 ANY: SignSet = frozenset((-1, 0, 1))

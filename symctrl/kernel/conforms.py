@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Condition, Invalid, Statement, fields
+from symctrl.kernel.certificate import Invalid, fields
+from symctrl.kernel.values import Condition, Statement
 
 
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:

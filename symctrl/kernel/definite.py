@@ -20,17 +20,7 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from symctrl.kernel.certificate import (
-    Condition,
-    Declined,
-    Invalid,
-    Statement,
-    fields,
-    natural,
-    rational,
-    split_name,
-    typed,
-)
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, split_name, typed
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.conditions import SIGNS, determinant
 from symctrl.kernel.field import Field, Value
@@ -38,6 +28,7 @@ from symctrl.kernel.matrices import Rows, has_factors, is_dominant
 from symctrl.kernel.polynomial import monomial, powers, tidy, variables
 from symctrl.kernel.replay import Replay
 from symctrl.kernel.sums import SumIdentity, opened
+from symctrl.kernel.values import Condition, Statement
 
 MAX_MINORS = 6
 Matrix = list[list[Value]]

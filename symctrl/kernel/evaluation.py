@@ -15,9 +15,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Generic, Protocol, TypeVar
 
-from symctrl.kernel.certificate import Invalid, Meaning, Ref, Statement, at_node, per_node, split_name
+from symctrl.kernel.certificate import Invalid, at_node, per_node, split_name
 from symctrl.kernel.chain import Chain, Domain
 from symctrl.kernel.closure import effective_law, law_of
+from symctrl.kernel.values import Meaning, Ref, Statement
 
 Value = TypeVar("Value")
 Binding = Mapping[str, str]  # the letters i and j to nodes

@@ -13,17 +13,8 @@ from collections.abc import Collection, Mapping
 from typing import Any
 
 from symctrl.kernel.certificate import (
-    Assumption,
-    Claim,
-    Condition,
     Declined,
     Invalid,
-    Listing,
-    Meaning,
-    Ref,
-    Statement,
-    Step,
-    Use,
     digest,
     fields,
     natural,
@@ -33,6 +24,7 @@ from symctrl.kernel.certificate import (
     text_field,
     typed,
 )
+from symctrl.kernel.values import Assumption, Claim, Condition, Listing, Meaning, Ref, Statement, Step, Use
 
 MAX_INSTRUCTIONS = 2_000_000
 MAX_SIZE = 10_000  # rows or columns of a claim

@@ -12,8 +12,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Condition, Statement
 from symctrl.kernel.sums import opened
+from symctrl.kernel.values import Condition, Statement
 
 
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:

@@ -12,12 +12,7 @@ import json
 from typing import Any
 
 from symctrl.kernel.certificate import (
-    BUNDLE_FORMAT,
-    FORMAT,
     MAX_DIGITS,
-    MAX_PARTS,
-    MAX_TEXT,
-    Certificate,
     Declined,
     Invalid,
     Unreadable,
@@ -28,6 +23,12 @@ from symctrl.kernel.certificate import (
 )
 from symctrl.kernel.closure import require_closed
 from symctrl.kernel.form import read_statement
+from symctrl.kernel.values import Certificate
+
+FORMAT = "symctrl-certificate/1"
+BUNDLE_FORMAT = "symctrl-certificates/1"
+MAX_PARTS = 1000
+MAX_TEXT = 64 * 2**20  # characters
 
 
 def load(text: str) -> Certificate:

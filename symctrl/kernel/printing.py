@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from symctrl.kernel.certificate import Listing, Meaning, Ref, Statement
+from symctrl.kernel.values import Listing, Meaning, Ref, Statement
 
 MAX_FORMULA = 400
 _INFIX = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "POW": "^", "CONSTPOW": "^"}

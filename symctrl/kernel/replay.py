@@ -17,18 +17,7 @@ from fractions import Fraction
 from typing import Any
 
 from symctrl.kernel import functions
-from symctrl.kernel.certificate import (
-    Assumption,
-    Condition,
-    Declined,
-    Invalid,
-    Statement,
-    fields,
-    natural,
-    rational,
-    split_name,
-    typed,
-)
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, split_name, typed
 from symctrl.kernel.chain import Domain
 from symctrl.kernel.closure import Reach
 from symctrl.kernel.conditions import Signs
@@ -36,6 +25,7 @@ from symctrl.kernel.evaluation import Evaluation, Sums
 from symctrl.kernel.field import Field, Value, read_poly, read_powers
 from symctrl.kernel.generators import read_by, read_generators, relations_of
 from symctrl.kernel.polynomial import Poly, Relation, monomial, relation, variables
+from symctrl.kernel.values import Assumption, Condition, Statement
 
 MAX_FACTOR_POWER = 1000
 _PLAIN = frozenset(("INPUT", "CONST", "ADD", "SUB", "MUL", "NEG", "SQ", "TWICE"))

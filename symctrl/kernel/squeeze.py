@@ -10,9 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Condition, Invalid, Statement, fields, natural, typed
+from symctrl.kernel.certificate import Invalid, fields, natural, typed
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.sums import opened
+from symctrl.kernel.values import Condition, Statement
 
 MAX_POWER = 4
 

@@ -18,12 +18,13 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, Statement, fields, typed
+from symctrl.kernel.certificate import Declined, Invalid, fields, typed
 from symctrl.kernel.evaluation import Evaluation, Level
 from symctrl.kernel.field import Value
 from symctrl.kernel.generators import letters
 from symctrl.kernel.polynomial import Poly, monomial, powers, variables
 from symctrl.kernel.replay import Replay
+from symctrl.kernel.values import Statement
 
 OTHER = {"i": "j", "j": "i"}
 Made = tuple[str, int, str | None]  # the name of a total, how often it is differentiated, under which law

@@ -24,23 +24,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from symctrl.kernel.certificate import (
-    Assumption,
-    Condition,
-    Declined,
-    Invalid,
-    Statement,
-    at_node,
-    fields,
-    natural,
-    per_node,
-    rational,
-    typed,
-)
+from symctrl.kernel.certificate import Declined, Invalid, at_node, fields, natural, per_node, rational, typed
 from symctrl.kernel.enclosure import Enclosure
 from symctrl.kernel.evaluation import Evaluation, GraphSums, NoSums
 from symctrl.kernel.interval import Interval, Undecided, point
 from symctrl.kernel.matrices import eliminate
+from symctrl.kernel.values import Assumption, Condition, Statement
 
 BITS = (64, 256, 1024)
 MAX_EDGES = 10_000

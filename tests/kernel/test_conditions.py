@@ -8,11 +8,12 @@ import pytest
 from hypothesis import given as for_all
 from hypothesis import strategies as st
 
-from symctrl.kernel.certificate import Condition, Invalid
+from symctrl.kernel.certificate import Invalid
 from symctrl.kernel.conditions import ANY, SIGNS, Signs, determinant, product, total
 from symctrl.kernel.field import Field
 from symctrl.kernel.generators import Generator, read_generators
 from symctrl.kernel.polynomial import Poly, monomial
+from symctrl.kernel.values import Condition
 
 SIGN_SETS = st.sets(st.sampled_from([-1, 0, 1]), min_size=1).map(frozenset)
 
