@@ -23,6 +23,10 @@ from symctrl.problem import Assumption, Output, Problem, split, star
 
 MAX_RESTARTS = 40
 MAX_MINOR = 3
+PER_WORD = 8  # exponents in one machine word of a monomial in FLINT, as long as they are small
+RATIONAL = frozenset(
+    ["INPUT", "CONST", "ADD", "SUB", "NEG", "MUL", "DIV", "INV", "SQ", "TWICE", "POW", "CONSTPOW"]
+)
 OTHER = {"i": "j", "j": "i"}
 Result = TypeVar("Result")
 
@@ -205,7 +209,7 @@ def exactly(problem: Problem, work: Callable[[Session], Result]) -> Result:
     Raises Unsupported where an operation has no exact meaning, NowhereDefined, NoRate, NotDifferentiable.
     """
     knowledge = Knowledge()
-    spare = 16 + sum(len(tape.inputs) for tape in problem.listings.values()) * 2
+    spare = _expected(problem)
     for _ in range(MAX_RESTARTS):
         try:
             return work(Session(problem, ExactDomain(Field([], spare), knowledge)))
@@ -214,3 +218,12 @@ def exactly(problem: Problem, work: Callable[[Session], Result]) -> Result:
         except Refine:
             continue
     raise Unsupported("the roots and angles of this claim need ever finer generators")
+
+
+def _expected(problem: Problem) -> int:
+    """How many generators the problem will need, about: each one that is reserved makes monomials longer."""
+    tapes = problem.listings.values()
+    if any(split(name)[1] for tape in tapes for name in tape.inputs):
+        return 16 + 2 * sum(len(tape.inputs) for tape in tapes)
+    count = len(problem.scalars) + sum(step.op not in RATIONAL for tape in tapes for step in tape.code)
+    return max(1, -(-count // PER_WORD)) * PER_WORD

@@ -14,8 +14,10 @@ from fractions import Fraction
 from math import comb
 from typing import Any
 
+from flint.utils.flint_exceptions import DomainError
+
 from symctrl.domains.domain import Domain, Unsupported
-from symctrl.domains.field import Exact, Field, Key, Poly, coefficient, key_product, merged
+from symctrl.domains.field import Exact, Field, Key, Poly, coefficient, is_number, key_product, merged
 from symctrl.domains.opaque import Knowledge, NowhereDefined, Opaque
 from symctrl.domains.signs import Signs
 
@@ -43,7 +45,7 @@ class ExactDomain(Domain[Exact]):
         self.signs = Signs(field_)
         self.recording = Recording()
         self.opaque = Opaque(self, knowledge or Knowledge())
-        self._inverse_of: dict[str, tuple[Exact, Poly, Key]] = {}
+        self._factored: dict[tuple[tuple[Key, int], ...], list[tuple[Exact, Fraction, Key]]] = {}
 
     # Values
 
@@ -66,22 +68,33 @@ class ExactDomain(Domain[Exact]):
     # Ring operations
 
     def add_(self, a: Exact, b: Exact) -> Exact:
-        return self._sum(a, b, lambda p, q: p + q)
+        result = a.copy()
+        for key, q in b.items():
+            total = result.pop(key) + q if key in result else q
+            if not total.is_zero():
+                result[key] = total
+        return result
 
     def sub_(self, a: Exact, b: Exact) -> Exact:
-        return self._sum(a, {key: -p for key, p in b.items()}, lambda p, q: p + q)
+        result = a.copy()
+        for key, q in b.items():
+            total = result.pop(key) - q if key in result else -q
+            if not total.is_zero():
+                result[key] = total
+        return result
 
     def neg_(self, a: Exact) -> Exact:
         return {key: -p for key, p in a.items()}
 
     def mul_(self, a: Exact, b: Exact) -> Exact:
+        if len(a) == 1 == len(b):
+            (((k, p),), ((j, q),)) = a.items(), b.items()
+            return {(): p * q} if k == j == () else self._cancelled(key_product(k, j), p * q)
         products: Exact = {}
         for k, p in a.items():
             for j, q in b.items():
                 key = key_product(k, j)
                 products[key] = products[key] + p * q if key in products else p * q
-        if len(products) == 1 and () in products:
-            return products
         return merged([pair for key, p in products.items() for pair in self._cancelled(key, p).items()])
 
     def scaled(self, a: Exact, factor: Fraction) -> Exact:
@@ -96,6 +109,9 @@ class ExactDomain(Domain[Exact]):
             raise Unsupported(
                 f"the exact domain does not expand the power {exponent} of a sum of {length} terms"
             )
+        if len(a) == 1 and exponent:
+            ((key, p),) = a.items()
+            return {tuple((k, e * exponent) for k, e in key): p**exponent}
         result = self.constant(Fraction(1))
         while exponent:
             if exponent & 1:
@@ -106,41 +122,28 @@ class ExactDomain(Domain[Exact]):
 
     def inv_(self, a: Exact) -> Exact:
         """1/a through the irreducible factors of its numerator. Raises NowhereDefined."""
-        constant = self.rational(a)
-        if constant:
-            return self.constant(1 / constant)
+        if len(a) == 1 and () in a and is_number(a[()]):
+            return {(): 1 / a[()]}
         c, key = self.factored(a)
         if c == 0:
             raise NowhereDefined("a division by what is zero on the whole domain")
         self.recording.inverses.append((c, key))
         return self.over(self.field.polynomial(1 / c), key)
 
-    def _sum(self, a: Exact, b: Exact, plus: Callable[[Poly, Poly], Poly]) -> Exact:
-        if len(a) < len(b):
-            a, b = b, a
-        result = dict(a)
-        for key, q in b.items():
-            if key in result:
-                p = plus(result[key], q)
-                if p.is_zero():
-                    del result[key]
-                else:
-                    result[key] = p
-            else:
-                result[key] = q
-        return result
-
     def _cancelled(self, key: Key, p: Poly) -> Exact:
         if p.is_zero():
             return {}
+        if not key or is_number(p):
+            return {key: p}
         kept = []
         for k, exponent in key:
             e = exponent
             while e:
-                quotient, rest = divmod(p, self.field.factors[k])
-                if not rest.is_zero():
+                try:
+                    p = p / self.field.factors[k]
+                except DomainError:
                     break
-                p, e = quotient, e - 1
+                e -= 1
             if e:
                 kept.append((k, e))
         return {tuple(kept): p}
@@ -151,7 +154,7 @@ class ExactDomain(Domain[Exact]):
         """The number that a is without any relation, or None."""
         if not a:
             return Fraction(0)
-        if len(a) == 1 and () in a and a[()].is_constant():
+        if len(a) == 1 and () in a and is_number(a[()]):
             return coefficient(a[()])
         return None
 
@@ -162,6 +165,9 @@ class ExactDomain(Domain[Exact]):
 
     def fraction(self, a: Exact) -> tuple[Poly, Key]:
         """Numerator as it is, and denominator, of the whole sum."""
+        if len(a) == 1:
+            ((one, p),) = a.items()
+            return p, one
         common: dict[int, int] = {}
         for key in a:
             for k, e in key:
@@ -179,9 +185,10 @@ class ExactDomain(Domain[Exact]):
         """Is a zero wherever it is defined on the domain? False means: not shown by the relations."""
         if not a:
             return True
-        parts = list(self._components(a))
-        if len(parts) > 1 and all(self.together(part)[0].is_zero() for part in parts):
-            return True
+        if len(a) > 1:
+            parts = self._components(a)
+            if len(parts) > 1 and all(self.together(part)[0].is_zero() for part in parts):
+                return True
         return bool(self.together(a)[0].is_zero())
 
     def simplified(self, a: Exact) -> Exact:
@@ -191,14 +198,16 @@ class ExactDomain(Domain[Exact]):
 
     def factored(self, a: Exact) -> tuple[Fraction, Key]:
         """c and {factor: exponent} with a = c ∏ factor^exponent, exponents of either sign; c = 0 for zero."""
-        text = str(sorted((key, str(p)) for key, p in a.items()))
-        if text not in self._inverse_of:
-            numerator, key = self.together(a)
-            c, exponents = self.factor_polynomial(numerator)
-            for k, e in key:
-                exponents[k] = exponents.get(k, 0) - e
-            self._inverse_of[text] = (a, c, tuple(sorted((k, e) for k, e in exponents.items() if e)))
-        return self._inverse_of[text][1:]
+        shape = tuple(sorted((key, len(p)) for key, p in a.items()))
+        for value, c, result in (known := self._factored.setdefault(shape, [])):
+            if value == a:
+                return c, result
+        numerator, key = self.together(a)
+        c, exponents = self.factor_polynomial(numerator)
+        for k, e in key:
+            exponents[k] = exponents.get(k, 0) - e
+        known.append((a, c, tuple(sorted((k, e) for k, e in exponents.items() if e))))
+        return known[-1][1:]
 
     def factor_polynomial(self, p: Poly) -> tuple[Fraction, dict[int, int]]:
         """c and {factor: exponent} with p = c ∏ factor^exponent; the factors enter the table."""
@@ -221,7 +230,7 @@ class ExactDomain(Domain[Exact]):
             if sorted(lead)[-2:] == [0, 2] or list(lead) == [2]:
                 g = self.field.context.gen(list(lead).index(2))
                 tail = g * g - relation / relation.leading_coefficient()
-                if tail.is_constant():
+                if is_number(tail):
                     continue
                 ratio = f.leading_coefficient() / tail.leading_coefficient()
                 if f == tail * ratio:

@@ -63,7 +63,8 @@ class Field:
         return self.context.gen(self.size - 1 - k)
 
     def polynomial(self, value: Fraction | int) -> Poly:
-        value = Fraction(value)
+        if value.denominator == 1:
+            return self.context.constant(value.numerator)
         return self.context.constant(flint.fmpq(value.numerator, value.denominator))
 
     def add_generator(self, generator: Generator) -> int:
@@ -215,6 +216,11 @@ def key_product(a: Key, b: Key) -> Key:
     for k, e in b:
         exponents[k] = exponents.get(k, 0) + e
     return tuple(sorted(exponents.items()))
+
+
+def is_number(p: Poly) -> bool:
+    """Is the polynomial constant? Asked of more than one term, FLINT would go through them all."""
+    return len(p) < 2 and bool(p.is_constant())
 
 
 def coefficient(p: Poly) -> Fraction:
