@@ -68,6 +68,8 @@ class ExactDomain(Domain[Exact]):
     # Ring operations
 
     def add_(self, a: Exact, b: Exact) -> Exact:
+        if not (a and b):
+            return a or b
         result = a.copy()
         for key, q in b.items():
             total = result.pop(key) + q if key in result else q
@@ -76,6 +78,8 @@ class ExactDomain(Domain[Exact]):
         return result
 
     def sub_(self, a: Exact, b: Exact) -> Exact:
+        if not b:
+            return a
         result = a.copy()
         for key, q in b.items():
             total = result.pop(key) - q if key in result else -q
@@ -87,15 +91,27 @@ class ExactDomain(Domain[Exact]):
         return {key: -p for key, p in a.items()}
 
     def mul_(self, a: Exact, b: Exact) -> Exact:
+        if not (a and b):
+            return {}
         if len(a) == 1 == len(b):
             (((k, p),), ((j, q),)) = a.items(), b.items()
-            return {(): p * q} if k == j == () else self._cancelled(key_product(k, j), p * q)
+            if not k and p.is_one():
+                return b
+            if not j and q.is_one():
+                return a
+            return self._cancelled(key_product(k, j), p * q) if k or j else {(): p * q}
         products: Exact = {}
         for k, p in a.items():
             for j, q in b.items():
                 key = key_product(k, j)
                 products[key] = products[key] + p * q if key in products else p * q
         return merged([pair for key, p in products.items() for pair in self._cancelled(key, p).items()])
+
+    def div_(self, a: Exact, b: Exact) -> Exact:
+        if len(b) == 1 and () in b and is_number(b[()]):
+            c = b[()].leading_coefficient()
+            return {key: p / c for key, p in a.items()}
+        return self.mul_(a, self.inv_(b))
 
     def scaled(self, a: Exact, factor: Fraction) -> Exact:
         return self.mul_(self.constant(factor), a)
@@ -226,9 +242,9 @@ class ExactDomain(Domain[Exact]):
     def _square_root(self, f: Poly) -> tuple[Poly | None, Fraction]:
         """A generator g and r with f = r g² by a relation, as 1 - qᵀq is q0² for a unit quaternion."""
         for relation in self.field.relations:
-            lead = next(iter(relation.monoms()))
-            if sorted(lead)[-2:] == [0, 2] or list(lead) == [2]:
-                g = self.field.context.gen(list(lead).index(2))
+            lead = relation.monomial(0)
+            if len(relation) == len(f) + 1 and sum(lead) == max(lead) == 2:
+                g = self.field.context.gen(lead.index(2))
                 tail = g * g - relation / relation.leading_coefficient()
                 if is_number(tail):
                     continue

@@ -58,6 +58,8 @@ class Field:
         self.generators = [Generator("free", name) for name in self.free]
         self.index = {name: k for k, name in enumerate(self.free)}
         self._labels: dict[int, str] = {}
+        self._led: set[int] = set()
+        self._triangular = True
 
     def variable(self, k: int) -> Poly:
         return self.context.gen(self.size - 1 - k)
@@ -76,19 +78,27 @@ class Field:
 
     def add_relation(self, zero: Poly) -> None:
         """The polynomial vanishes on the domain; its leading monomial is rewritten from now on."""
-        if not zero.is_zero():
-            self.relations.append(zero)
-            self.relations.sort(key=lambda p: next(iter(p.monoms())), reverse=True)
+        if zero.is_zero():
+            return
+        self.relations.append(zero)
+        self.relations.sort(key=lambda p: p.monomial(0), reverse=True)
+        led = [v for v, e in enumerate(zero.monomial(0)) if e]
+        self._triangular = self._triangular and len(led) == 1 and led[0] not in self._led
+        self._led.update(led)
 
     def normal(self, p: Poly) -> Poly:
-        """The normal form: no term is divisible by the leading monomial of a relation."""
+        """The normal form: no term is divisible by the leading monomial of a relation.
+
+        Where the leading monomials are powers of different generators, dividing by a relation brings back no
+        power of a higher generator, so that one pass from the top is enough.
+        """
         while True:
             before = p
             for relation in self.relations:
                 if p.is_zero():
                     return p
                 p = divmod(p, relation)[1]
-            if p == before:
+            if self._triangular or p == before:
                 return p
 
     def factor_index(self, f: Poly) -> int:

@@ -23,6 +23,7 @@ from symctrl.domains.signs import Signs
 
 FUNCTIONS = frozenset(["LOG", "TANH", "ASIN", "ACOS", "ATAN", "ERF", "ERFINV", "FLOOR", "CEIL", "ATAN2"])
 MAX_MULTIPLE = 32  # of an angle: sin(32 x) is a polynomial of degree 32 in sin(x), cos(x)
+Turn = tuple[Exact, Exact]  # the cosine and the sine of an angle
 ODD = frozenset(["TANH", "ASIN", "ATAN", "ERF", "ERFINV"])
 
 
@@ -83,6 +84,7 @@ class Opaque:
         self.domain = domain
         self.field = domain.field
         self.knowledge = knowledge
+        self._turns: list[tuple[Exact, Turn]] = []
 
     def handler(self, op: str) -> Callable[..., Exact] | None:
         if op in FUNCTIONS:
@@ -250,7 +252,15 @@ class Opaque:
     def sin(self, a: Exact) -> Exact:
         return self._turn(a)[1]
 
-    def _turn(self, a: Exact) -> tuple[Exact, Exact]:
+    def _turn(self, a: Exact) -> Turn:
+        a = self.domain.simplified(a)
+        for known, turn in self._turns:
+            if known == a:
+                return turn
+        self._turns.append((a, self._new_turn(a)))
+        return self._turns[-1][1]
+
+    def _new_turn(self, a: Exact) -> Turn:
         """(cos a, sin a) by the addition theorems."""
         domain = self.domain
         result = (domain.constant(Fraction(1)), domain.constant(Fraction(0)))
@@ -273,7 +283,7 @@ class Opaque:
                 result = self._rotated(result, step)
         return result
 
-    def _rotated(self, a: tuple[Exact, Exact], b: tuple[Exact, Exact]) -> tuple[Exact, Exact]:
+    def _rotated(self, a: Turn, b: Turn) -> Turn:
         d = self.domain
         return (
             d.sub_(d.mul_(a[0], b[0]), d.mul_(a[1], b[1])),
@@ -316,7 +326,7 @@ class Opaque:
     def generator(self, wanted: Generator) -> int:
         """The index of the generator, made with its relations if it is new."""
         for k, g in enumerate(self.field.generators):
-            if g == wanted:
+            if g.kind == wanted.kind and g == wanted:
                 return k
         k = self.field.add_generator(wanted)
         g = self.field.variable(k)
