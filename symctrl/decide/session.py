@@ -225,5 +225,7 @@ def _expected(problem: Problem) -> int:
     tapes = problem.listings.values()
     if any(split(name)[1] for tape in tapes for name in tape.inputs):
         return 16 + 2 * sum(len(tape.inputs) for tape in tapes)
-    count = len(problem.scalars) + sum(len([step for step in tape.code if step.op not in RATIONAL]) for tape in tapes)
+    count = len(problem.scalars) + sum(
+        len([step for step in tape.code if step.op not in RATIONAL]) for tape in tapes
+    )
     return max(1, -(-count // PER_WORD)) * PER_WORD
