@@ -20,16 +20,28 @@ MAX_DIGITS = 4000
 MAX_STRING = 20_000
 
 
-class Unreadable(ValueError):  # noqa: N818  (an outcome, named as it is printed)
+class Refused(ValueError):  # noqa: N818  (an outcome, named as it is printed)
+    """Why a certificate is not valid; `status` is the answer."""
+
+    status = ""
+
+
+class Unreadable(Refused):
     """Not a certificate of a known version at all."""
 
+    status = "unreadable"
 
-class Invalid(ValueError):  # noqa: N818
+
+class Invalid(Refused):
     """The certificate is malformed, or does not prove what it states; the message says where."""
 
+    status = "invalid"
 
-class Declined(ValueError):  # noqa: N818
+
+class Declined(Refused):
     """The kernel has no rule for this, or it exceeds a bound on work: neither valid nor invalid."""
+
+    status = "declined"
 
 
 _NAME = re.compile(r"([^\W\d]\w*)(?:\.(\w+|\*))?(\[[1-9]\d{0,8}(?:,[1-9]\d{0,8})?\])?")
@@ -95,6 +107,13 @@ def fields(
         what = f"lacks the field {missing[0]!r}" if missing else f"has the unknown field {unknown[0][:60]!r}"
         raise Invalid(f"{where} {what}")
     return table
+
+
+def several(value: Any, count: int, where: str) -> list[Any]:
+    """`value`, if it is a list of so many entries. Raises Invalid."""
+    if len(typed(value, list, where)) != count:
+        raise Invalid(f"{where}: a list of {count} entries is wanted, and this one has {len(value)}")
+    return list(value)
 
 
 def natural(value: Any, below: int, where: str) -> int:

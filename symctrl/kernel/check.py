@@ -14,20 +14,13 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, Unreadable
+from symctrl.kernel.certificate import Declined, Invalid, Refused
 from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
 from symctrl.kernel.printing import line, print_statement
 from symctrl.kernel.values import Certificate, Condition
 
-# The module with the rules of each kind of proof: `needed_conditions(statement, proof)`.
-PROOFS = {
-    "identity": "symctrl.kernel.identity",
-    "combination": "symctrl.kernel.combination",
-    "definite": "symctrl.kernel.definite",
-    "conforms": "symctrl.kernel.conforms",
-    "witness": "symctrl.kernel.witness",
-    "squeeze": "symctrl.kernel.squeeze",
-}
+# Each kind of proof has a module of its name, with `needed_conditions(statement, proof)`.
+PROOFS = ("identity", "combination", "definite", "conforms", "witness", "squeeze")
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
 
@@ -55,12 +48,8 @@ def _attempt(work: Callable[[Any], Answer], about: Any) -> Answer:
     """The answer of the work, or the one that its exception amounts to."""
     try:
         return work(about)
-    except Unreadable as error:
-        return Answer("unreadable", "", line(str(error)))
-    except Invalid as error:
-        return Answer("invalid", "", line(str(error)))
-    except Declined as error:
-        return Answer("declined", "", line(str(error)))
+    except Refused as error:
+        return Answer(error.status, "", line(str(error)))
     except (RecursionError, MemoryError) as error:
         reason = f"the check exceeds the limits of this machine: {type(error).__name__}"
         return Answer("declined", "", reason)
@@ -91,15 +80,21 @@ def needed_conditions(text: str) -> list[Condition]:
 
     Raises Unreadable, Invalid or Declined where the proof is none.
     """
-    certificate = load(text)
-    needed = _rules(certificate).needed_conditions(certificate.statement, certificate.proof)
-    return sorted(needed, key=lambda condition: (condition.kind, condition.of))
+    return sorted(_needed(load(text)), key=lambda condition: (condition.kind, condition.of))
+
+
+def _needed(certificate: Certificate) -> set[Condition]:
+    kind = certificate.proof.get("kind")
+    if not isinstance(kind, str) or kind not in PROOFS:
+        raise Declined(f"a proof of the kind {str(kind)[:60]!r} is not known")
+    rules = import_module(f"symctrl.kernel.{kind}")
+    needed: set[Condition] = rules.needed_conditions(certificate.statement, certificate.proof)
+    return needed
 
 
 def verify(certificate: Certificate) -> None:
     """Raises Invalid or Declined unless the proof shows the claim under exactly the stated conditions."""
-    needed = _rules(certificate).needed_conditions(certificate.statement, certificate.proof)
-    listed = set(certificate.statement.conditions)
+    needed, listed = _needed(certificate), set(certificate.statement.conditions)
     for missing in sorted(needed - listed, key=str):
         raise Invalid(f"the condition that {missing.of[:200]} is {missing.kind} is needed and not stated")
     for idle in sorted(listed - needed, key=str):
@@ -109,13 +104,6 @@ def verify(certificate: Certificate) -> None:
 def _verify(certificate: Certificate) -> Answer:
     verify(certificate)
     return Answer("valid", "", f"verified by its {certificate.proof['kind']}")
-
-
-def _rules(certificate: Certificate) -> Any:
-    kind = certificate.proof.get("kind")
-    if not isinstance(kind, str) or kind not in PROOFS:
-        raise Declined(f"a proof of the kind {str(kind)[:60]!r} is not known")
-    return import_module(PROOFS[kind])
 
 
 def check_file(path: str | Path) -> Answer:

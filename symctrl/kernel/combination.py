@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Invalid, fields, natural, rational, typed
+from symctrl.kernel.certificate import Invalid, fields, natural, rational, several, typed
 from symctrl.kernel.conditions import SIGNS
 from symctrl.kernel.field import Value
 from symctrl.kernel.polynomial import Poly
@@ -30,9 +30,7 @@ from symctrl.kernel.values import Condition, Statement
 def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
     """The conditions under which the proof shows the claim. Raises Invalid or Declined where it does not."""
     test, outputs = opened(statement, proof, ("nonnegative", "positive"), "entries")
-    entries = typed(proof["entries"], list, "entries")
-    if len(entries) != len(outputs):
-        raise Invalid(f"the claim has {len(outputs)} entries, and the proof has {len(entries)}")
+    entries = several(proof["entries"], len(outputs), "entries")
     for k, (value, entry) in enumerate(zip(outputs, entries, strict=True)):
         prove_sign(test, value, entry, statement.claim.kind == "positive", f"entry {k}")
     return test.replay.close()
@@ -76,19 +74,17 @@ def _forms(replay: Replay, value: Value) -> list[Poly]:
 
 def _term(replay: Replay, value: Any, where: str) -> tuple[Poly, bool]:
     """The polynomial of a term, and whether it is certainly positive."""
-    term = typed(value, list, where)
-    if len(term) != 3:
-        raise Invalid(f"{where}: a term is [number, [assumption, ..], [POLY, ..]]")
-    c = rational(term[0], where)
+    number, factors, squares = several(value, 3, f"{where}, [number, [assumption, ..], [POLY, ..]]")
+    c = rational(number, where)
     if c <= 0:
         raise Invalid(f"{where}: the number {c} is not positive")
     result: Poly = {0: c.numerator if c.denominator == 1 else c}
     positive = True
-    for g in typed(term[1], list, where):
+    for g in typed(factors, list, where):
         p, sure = _nonnegative(replay, g, where)
         result = replay.field.ring.mul(result, p)
         positive = positive and sure
-    for square in typed(term[2], list, where):
+    for square in typed(squares, list, where):
         p = replay.poly(square, where)
         result = replay.field.ring.mul(result, replay.field.ring.mul(p, p))
         positive = positive and (replay.is_factor(p) or 0 not in replay.signs.of(p))

@@ -20,7 +20,16 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, split_name, typed
+from symctrl.kernel.certificate import (
+    Declined,
+    Invalid,
+    fields,
+    natural,
+    rational,
+    several,
+    split_name,
+    typed,
+)
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.conditions import SIGNS, determinant
 from symctrl.kernel.field import Field, Value
@@ -56,9 +65,7 @@ def _prove_tree(test: SumIdentity, outputs: Sequence[Value], tree: Any, proof: A
             raise Invalid(f"the proof is for {str(table['size'])[:20]} copies, the claim for {tree['size']}")
         _prove_tree(test, outputs, tree["kron_identity"], table["kron_identity"], strict)
     elif "blocks" in tree:
-        parts = typed(fields(proof, ("blocks",), "matrix")["blocks"], list, "blocks")
-        if len(parts) != len(tree["blocks"]):
-            raise Invalid(f"the proof has {len(parts)} blocks, the claim {len(tree['blocks'])}")
+        parts = several(fields(proof, ("blocks",), "matrix")["blocks"], len(tree["blocks"]), "blocks")
         for block, part in zip(tree["blocks"], parts, strict=True):
             _prove_tree(test, outputs, block, part, strict)
     elif "congruence" in tree:
@@ -121,16 +128,12 @@ def prove_leaf(rows: Rows, leaf: Mapping[str, Any], strict: bool) -> None:
 
 
 def _triangle(value: Any, n: int) -> list[list[Fraction]]:
-    rows = typed(value, list, "lower")
-    if len(rows) != n:
-        raise Invalid(f"lower has {len(rows)} rows, and the matrix {n}")
+    rows = several(value, n, "lower")
     return [_numbers(row, k + 1, f"row {k + 1} of lower") for k, row in enumerate(rows)]
 
 
 def _numbers(value: Any, n: int, where: str) -> list[Fraction]:
-    if len(typed(value, list, where)) != n:
-        raise Invalid(f"{where} has {len(value)} numbers, and should have {n}")
-    return [rational(entry, where) for entry in value]
+    return [rational(entry, where) for entry in several(value, n, where)]
 
 
 def _by_minors(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
@@ -158,13 +161,13 @@ def _by_rows(test: SumIdentity, matrix: Matrix, proofs: Any) -> None:
 
 def _prove_positive(test: SumIdentity, matrix: Matrix, values: list[Value], proofs: Any, what: str) -> None:
     """The matrix is symmetric, and each of the values that decide about it is positive."""
-    if len(typed(proofs, list, "the proof")) != len(values):
-        raise Invalid(f"the proof has {len(proofs)} parts, and the matrix {len(values)} rows")
     for i, row in enumerate(matrix):
         for j in range(i):
             where = f"symmetry in row {i + 1}, column {j + 1}"
             test.require_zero(test.replay.field.sub(row[j], matrix[j][i]), where)
-    for k, (value, proof) in enumerate(zip(values, proofs, strict=True), start=1):
+    for k, (value, proof) in enumerate(
+        zip(values, several(proofs, len(values), f"{what}s"), strict=True), start=1
+    ):
         prove_sign(test, _lowest(test.replay, value), proof, strict=True, where=f"{what} {k}")
 
 
@@ -238,9 +241,7 @@ def _assumed(replay: Replay, k: Any, n: int) -> tuple[Matrix, bool]:
 
 def _rational(part: dict[str, Any], n: int, strictly: bool, field: Field) -> tuple[Matrix, bool]:
     """A matrix of numbers that is shown semidefinite; is it shown definite, where that is of use?"""
-    rows = [_numbers(row, n, "rows") for row in typed(part["rows"], list, "rows")]
-    if len(rows) != n:
-        raise Invalid(f"a part of the sum has {len(rows)} rows, and the matrix {n}")
+    rows = [_numbers(row, n, "rows") for row in several(part["rows"], n, "rows")]
     sure = _proves(rows, part["proof"], strictly)
     return [[field.constant(tidy(entry)) for entry in row] for row in rows], sure
 

@@ -15,7 +15,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 from typing import Any
 
-from symctrl.kernel.certificate import Invalid, natural, rational, typed
+from symctrl.kernel.certificate import Invalid, natural, rational, several, typed
 from symctrl.kernel.polynomial import MAX_EXPONENT, Number, Poly, Relation, Ring, monomial, tidy
 
 Key = tuple[tuple[int, int], ...]
@@ -65,10 +65,9 @@ class Field:
         """A VALUE of docs/certificates.md. Raises Invalid."""
         result: Value = {}
         for group in typed(value, list, where):
-            if len(typed(group, list, where)) != 2:
-                raise Invalid(f"{where}: a group is [[[factor, exponent], ..], POLY]")
-            key = read_powers(typed(group[0], list, where), len(self.factors), where)
-            numerator = read_poly(group[1], self.variables, where)
+            below, above = several(group, 2, f"{where}, [[[factor, exponent], ..], POLY]")
+            key = read_powers(typed(below, list, where), len(self.factors), where)
+            numerator = read_poly(above, self.variables, where)
             if key in result or not numerator:
                 raise Invalid(f"{where}: a group is zero or occurs twice")
             result[key] = numerator

@@ -17,7 +17,16 @@ from fractions import Fraction
 from typing import Any
 
 from symctrl.kernel import functions
-from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, split_name, typed
+from symctrl.kernel.certificate import (
+    Declined,
+    Invalid,
+    fields,
+    natural,
+    rational,
+    several,
+    split_name,
+    typed,
+)
 from symctrl.kernel.chain import Domain
 from symctrl.kernel.closure import Reach
 from symctrl.kernel.conditions import Signs
@@ -94,13 +103,12 @@ class Replay(Domain[Value]):
             p = self.poly(table["poly"], where)
             left = p
             for pair in typed(table["of"], list, where):
-                if len(typed(pair, list, where)) != 2:
-                    raise Invalid(f"{where}: a part is [assumption, POLY]")
-                k = natural(pair[0], len(self.given), where)
+                at, cofactor = several(pair, 2, f"{where}, [assumption, POLY]")
+                k = natural(at, len(self.given), where)
                 if self.statement.given[k].kind != "zero":
                     raise Invalid(f"{where}: assumption {k} is no equation")
                 numerator, _ = self.field.fraction(self.given[k][0])
-                left = ring.add(left, ring.scale(ring.mul(self.poly(pair[1], where), numerator), -1))
+                left = ring.add(left, ring.scale(ring.mul(self.poly(cofactor, where), numerator), -1))
             if left or p.keys() <= {0}:
                 raise Invalid(f"{where} does not follow from the assumptions as it says")
             self._learned.append(relation(p))
@@ -249,11 +257,9 @@ class Replay(Domain[Value]):
         return value, set()
 
     def _inverse(self, where: str, hint: dict[str, Any], a: Value) -> tuple[Value, set[int]]:
-        pair = typed(fields(hint, ("inverse",), where)["inverse"], list, where)
-        if len(pair) != 2:
-            raise Invalid(f"{where}: an inverse is [number, powers of factors]")
-        scale = rational(pair[0], where)
-        factors = read_powers(typed(pair[1], list, where), len(self.field.factors), where, signed=True)
+        number, above = several(fields(hint, ("inverse",), where)["inverse"], 2, f"{where}, [number, powers]")
+        scale = rational(number, where)
+        factors = read_powers(typed(above, list, where), len(self.field.factors), where, signed=True)
         if scale == 0 or any(abs(e) > MAX_FACTOR_POWER for _, e in factors):
             raise Invalid(f"{where}: the scale is zero or an exponent too large")
         up = tuple((f, e) for f, e in factors if e > 0)

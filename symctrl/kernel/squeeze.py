@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.kernel.certificate import Invalid, fields, natural, typed
+from symctrl.kernel.certificate import Invalid, fields, natural, several
 from symctrl.kernel.combination import prove_sign
 from symctrl.kernel.sums import opened
 from symctrl.kernel.values import Condition, Statement
@@ -26,16 +26,14 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     test, outputs = opened(statement, proof, ("equal",), "entries")
     field = test.replay.field
     count = len(outputs) // 2
-    entries = typed(proof["entries"], list, "entries")
-    if len(entries) != count:
-        raise Invalid(f"the claim has {count} entries, and the proof has {len(entries)}")
-    for k, entry in enumerate(entries):
+    for k, entry in enumerate(several(proof["entries"], count, "entries")):
         where = f"entry {k}"
         table = fields(entry, ("power", "terms"), where, optional=("times",))
-        n = natural(table.pop("power"), MAX_POWER + 1, where)
+        n = natural(table["power"], MAX_POWER + 1, where)
         if n == 0:
             raise Invalid(f"{where}: the power 0 says nothing of the difference")
         difference = field.sub(outputs[k], outputs[count + k])
         power = field.power(field.mul(difference, difference), n)
-        prove_sign(test, field.neg(power), table, False, where)
+        terms = {key: part for key, part in table.items() if key != "power"}
+        prove_sign(test, field.neg(power), terms, False, where)
     return test.replay.close()
