@@ -114,7 +114,7 @@ class ExactDomain(Domain[Exact]):
         return self.mul_(a, self.inv_(b))
 
     def scaled(self, a: Exact, factor: Fraction) -> Exact:
-        return self.mul_(self.constant(factor), a)
+        return a if factor == 1 else self.mul_(self.constant(factor), a)
 
     def power(self, a: Exact, exponent: int) -> Exact:
         """a**exponent by squaring; a negative one inverts first. Raises Unsupported where it is too long."""

@@ -20,8 +20,7 @@ class Signs:
     def learn(self, p: Poly, kind: str) -> None:
         """The assumption `kind` about p."""
         p = self.field_.normal(p)
-        occurring = self.field_.occurring(p)
-        if len(occurring) == 1 and len(p) == 1:
+        if len(p) == 1 and len(occurring := self.field_.occurring(p)) == 1:
             (k,) = occurring
             c = coefficient(p)
             if p == self.field_.variable(k) * p.leading_coefficient() and c > 0:

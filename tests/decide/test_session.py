@@ -1,5 +1,7 @@
 """Sessions: assumptions become relations and known signs, and what is learnt ends."""
 
+import math
+
 import pytest
 
 from symctrl import Study, equal
@@ -43,6 +45,22 @@ def test_finer_roots_and_angles_are_found_by_starting_again():
 
     assert exactly(made, count)
     assert len(starts) < MAX_RESTARTS
+
+
+def test_more_generators_than_expected_are_found_by_starting_again():
+    study = Study("s")
+    x = study.parameter("x", low="0")
+    product = math.prod((2, 3, 5, 7, 11, 13, 17, 19))  # one root for each prime
+    made = problem(study, equal(sqrt(product * x) ** 2, product * x))
+    sizes = []
+
+    def look(session):
+        sizes.append(session.domain.field.size)
+        return session.domain.is_zero(session.domain.sub_(*session.claim()))
+
+    assert exactly(made, look)
+    assert len(sizes) > 1
+    assert sizes == sorted(set(sizes))
 
 
 def test_an_evaluation_that_always_starts_again_ends():

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from symctrl.domains.field import Field, Generator, OutOfGenerators, key_product, merged
+from symctrl.domains.field import Field, Generator, OutOfGenerators, is_number, key_product, merged
 
 exponents = st.tuples(*[st.integers(0, 3)] * 3)
 terms = st.dictionaries(exponents, st.fractions(-3, 3, max_denominator=5), max_size=5)
@@ -23,11 +23,11 @@ def polynomial(field, places, wanted):
 
 
 def circle():
-    """y² = 1 - x² and z³ = x, over x, y, z."""
+    """z³ = x + y⁴ and y² = 1 - x², over x, y, z: the first brings back powers that the second lowers."""
     field = Field(["x", "y", "z"], 2)
     x, y, z = (field.variable(k) for k in range(3))
     field.add_relation(y**2 + x**2 - 1)
-    field.add_relation(z**3 - x)
+    field.add_relation(z**3 - x - y**4)
     return field
 
 
@@ -40,6 +40,18 @@ def test_a_normal_form_is_reduced_and_the_same_for_equal_values(p, q):
     assert field.normal(normal) == normal
     assert all(e[field.size - 2] < 2 and e[field.size - 3] < 3 for e, _ in normal.terms())
     assert field.normal(a + b * field.relations[0] + a * b * field.relations[1]) == normal
+
+
+@given(terms)
+@settings(max_examples=40, deadline=None)
+def test_no_term_of_a_normal_form_is_divisible_by_the_lead_of_a_relation(p):
+    field = Field(["x", "y", "z"], 2)
+    x, y, z = (field.variable(k) for k in range(3))
+    for zero in (z * x - y, z * y - x, z**2 - 1, y**2 - x**2):
+        field.add_relation(zero)
+    leads = [next(iter(r.monoms())) for r in field.relations]
+    for exponents, _ in field.normal(polynomial(field, range(3), p)).terms():
+        assert not any(all(a >= b for a, b in zip(exponents, lead, strict=True)) for lead in leads)
 
 
 @given(terms)
@@ -68,6 +80,13 @@ def test_the_json_form_is_read_back(p):
             term = term * field.variable(k) ** e
         again = again + term
     assert a == again
+
+
+@given(terms)
+@settings(max_examples=40, deadline=None)
+def test_only_a_number_is_a_number(p):
+    field = Field(["x", "y", "z"], 2)
+    assert is_number(polynomial(field, range(3), p)) == all(e == (0, 0, 0) or not c for e, c in p.items())
 
 
 def test_spare_generators_end():
