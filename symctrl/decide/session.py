@@ -24,6 +24,7 @@ from symctrl.problem import Assumption, Output, Problem, split, star
 MAX_RESTARTS = 40
 MAX_MINOR = 3
 PER_WORD = 8  # exponents in one machine word of a monomial in FLINT, as long as they are small
+SUMS = 12  # monomials that a claim with sums over neighbours sums, about
 RATIONAL = frozenset(
     ["INPUT", "CONST", "ADD", "SUB", "NEG", "MUL", "DIV", "INV", "SQ", "TWICE", "POW", "CONSTPOW"]
 )
@@ -223,9 +224,8 @@ def exactly(problem: Problem, work: Callable[[Session], Result]) -> Result:
 def _expected(problem: Problem) -> int:
     """How many generators the problem will need, about: each one that is reserved makes monomials longer."""
     tapes = problem.listings.values()
-    if any(split(name)[1] for tape in tapes for name in tape.inputs):
-        return 16 + 2 * sum(len(tape.inputs) for tape in tapes)
-    count = len(problem.scalars) + sum(
-        len([step for step in tape.code if step.op not in RATIONAL]) for tape in tapes
-    )
+    nodes = {split(name)[1] for tape in tapes for name in tape.inputs} - {None}
+    sums = SUMS * any(meaning.is_ in ("sum", "total") for meaning in problem.names.values())
+    opaque = sum(len([step for step in tape.code if step.op not in RATIONAL]) for tape in tapes)
+    count = (len(problem.scalars) + opaque + sums) * max(1, len(nodes))
     return max(1, -(-count // PER_WORD)) * PER_WORD
