@@ -11,10 +11,10 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor
 
-import flint
 import numpy as np
 
 from symctrl.decide.definiteness import decide_matrix
+from symctrl.decide.direction import null_vector
 
 DIGITS = 6
 Rows = Sequence[Sequence[Fraction | int]]
@@ -45,17 +45,8 @@ def _integer(rows: list[list[Fraction]], value: int) -> LargestEigenvalue | None
     answer = decide_matrix(shifted)
     if answer.definiteness != "positive semidefinite":
         return None
-    n = len(rows)
-    entries = [flint.fmpq(e.numerator, e.denominator) for row in shifted for e in row]
-    reduced, rank = flint.fmpq_mat(n, n, entries).rref()
-    pivots = [next(c for c in range(n) if reduced[r, c] != 0) for r in range(rank)]
-    free = next(c for c in range(n) if c not in pivots)
-    x = [Fraction(0)] * n
-    x[free] = Fraction(1)
-    for r, c in enumerate(pivots):
-        entry = reduced[r, free]
-        x[c] = -Fraction(int(entry.p), int(entry.q))
-    return LargestEigenvalue(Fraction(value), Fraction(value), tuple(x))
+    vector = tuple(null_vector(shifted))
+    return LargestEigenvalue(Fraction(value), Fraction(value), vector)
 
 
 def _bracket(rows: list[list[Fraction]], value: float, vector: np.ndarray) -> LargestEigenvalue:

@@ -54,9 +54,7 @@ def by_sum(session: Session, rows: list[list[Exact]], strict: bool) -> Any:
     return None
 
 
-def _without_assumed(
-    session: Session, rows: list[list[Exact]]
-) -> tuple[list[Any], list[list[Exact]], bool]:
+def _without_assumed(session: Session, rows: list[list[Exact]]) -> tuple[list[Any], list[list[Exact]], bool]:
     """What is left after taking away multiples of assumed matrices that occur as a whole, and these parts.
 
     The last says whether one of them is definite and its multiple positive.

@@ -12,6 +12,7 @@ from symctrl.decide.affine import by_rows, by_sum, lowest
 from symctrl.decide.attempt import Attempt
 from symctrl.decide.combination import terms_of
 from symctrl.decide.definiteness import decide_matrix
+from symctrl.decide.direction import null_vector
 from symctrl.decide.place import evaluation
 from symctrl.decide.points import points
 from symctrl.decide.session import Session, exactly
@@ -155,7 +156,7 @@ def _against(tree: Tree, outputs: Sequence[Fraction], strict: bool) -> list[Frac
     answer = decide_matrix(rows)
     if answer.witness is not None:
         return list(answer.witness)
-    return _null_vector(rows) if strict and answer.definiteness == "positive semidefinite" else None
+    return null_vector(rows) if strict and answer.definiteness == "positive semidefinite" else None
 
 
 def _numbers(tree: Tree, outputs: Sequence[Fraction]) -> list[list[Fraction]]:
@@ -190,24 +191,6 @@ def _product(a: list[list[Fraction]], b: list[list[Fraction]]) -> list[list[Frac
         ]
         for row in a
     ]
-
-
-def _null_vector(rows: list[list[Fraction]]) -> list[Fraction]:
-    """A nonzero vector in the kernel of a singular matrix."""
-    import flint
-
-    n = len(rows)
-    reduced, rank = flint.fmpq_mat(
-        n, n, [flint.fmpq(e.numerator, e.denominator) for row in rows for e in row]
-    ).rref()
-    pivots = [next(c for c in range(n) if reduced[r, c] != 0) for r in range(rank)]
-    free = next(c for c in range(n) if c not in pivots)
-    x = [Fraction(0)] * n
-    x[free] = Fraction(1)
-    for r, c in enumerate(pivots):
-        entry = reduced[r, free]
-        x[c] = -Fraction(int(entry.p), int(entry.q))
-    return x
 
 
 def size_of(tree: Tree) -> int:

@@ -1,4 +1,4 @@
-"""Short rational vectors on which a quadratic form is negative.
+"""Short rational vectors on which a quadratic form is negative, or zero where the matrix is singular.
 
 Floats propose a direction; every vector that leaves this module has been put into the form exactly.
 """
@@ -12,6 +12,7 @@ from operator import mul
 from typing import Any
 
 import numpy as np
+from flint import fmpq, fmpq_mat
 
 from symctrl.decide.scaling import Symmetric
 
@@ -102,3 +103,18 @@ def _primitive(x: Sequence[Fraction]) -> list[Fraction]:
     cleared = _cleared(x)
     common = gcd(*cleared)
     return [Fraction(a // common) for a in cleared]
+
+
+def null_vector(rows: Sequence[Sequence[Fraction]]) -> list[Fraction]:
+    """A nonzero vector that the singular matrix takes to zero."""
+    n = len(rows)
+    entries = [fmpq(entry.numerator, entry.denominator) for row in rows for entry in row]
+    reduced, rank = fmpq_mat(n, n, entries).rref()
+    pivots = [next(c for c in range(n) if reduced[r, c] != 0) for r in range(rank)]
+    free = next(c for c in range(n) if c not in pivots)
+    x = [Fraction(0)] * n
+    x[free] = Fraction(1)
+    for r, c in enumerate(pivots):
+        entry = reduced[r, free]
+        x[c] = -Fraction(int(entry.p), int(entry.q))
+    return x
