@@ -19,8 +19,9 @@ from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
 from symctrl.kernel.printing import line, print_statement
 from symctrl.kernel.values import Certificate, Condition
 
-# Each kind of proof has a module of its name, with `needed_conditions(statement, proof)`.
-PROOFS = ("identity", "combination", "definite", "conforms", "witness", "squeeze")
+# The module with the rules of each kind of proof: `needed_conditions(statement, proof)`. Others may be added.
+_KINDS = ("identity", "combination", "definite", "conforms", "witness", "squeeze")
+PROOFS = {kind: f"symctrl.kernel.{kind}" for kind in _KINDS}
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
 
@@ -87,7 +88,7 @@ def _needed(certificate: Certificate) -> set[Condition]:
     kind = certificate.proof.get("kind")
     if not isinstance(kind, str) or kind not in PROOFS:
         raise Declined(f"a proof of the kind {str(kind)[:60]!r} is not known")
-    rules = import_module(f"symctrl.kernel.{kind}")
+    rules = import_module(PROOFS[kind])
     needed: set[Condition] = rules.needed_conditions(certificate.statement, certificate.proof)
     return needed
 
