@@ -21,10 +21,10 @@ from symctrl.domains.domain import Unsupported
 from symctrl.domains.field import Exact, Field, Generator, Key, Poly
 from symctrl.domains.signs import Signs
 
-FUNCTIONS = frozenset(["LOG", "TANH", "ASIN", "ACOS", "ATAN", "ERF", "ERFINV", "FLOOR", "CEIL", "ATAN2"])
+FUNCTIONS = frozenset(["LOG", "TANH", "ASIN", "ACOS", "ATAN", "ERF", "FLOOR", "CEIL", "ATAN2"])
 MAX_MULTIPLE = 32  # of an angle: sin(32 x) is a polynomial of degree 32 in sin(x), cos(x)
 Turn = tuple[Exact, Exact]  # the cosine and the sine of an angle
-ODD = frozenset(["TANH", "ASIN", "ATAN", "ERF", "ERFINV"])
+ODD = frozenset(["TANH", "ASIN", "ATAN", "ERF"])
 
 
 class NowhereDefined(ValueError):  # noqa: N818

@@ -32,7 +32,7 @@ SIGNS: dict[str, SignSet] = {
 }
 MAX_MINOR = 4  # rows
 MAX_MINORS = 1000  # of one size
-ODD = ("tanh", "atan", "asin")
+ODD = ("tanh", "atan", "asin", "erf")
 
 
 def product(a: SignSet, b: SignSet) -> SignSet:

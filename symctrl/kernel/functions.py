@@ -217,8 +217,9 @@ def _opaque(step: Step, args: list[Value], value: Value) -> None:
         step.refuse("the stated value is not the generator of this function")
     if c != 1 and not (c == -1 and g.name in ODD):
         step.refuse("the stated value is a multiple of the generator")
-    if not field.is_zero(field.sub(args[0], g.args[0]) if c == 1 else field.add(args[0], g.args[0])):
-        step.refuse("the generator has another argument")
+    for given, own in zip(args, g.args, strict=True):
+        if not field.is_zero(field.sub(given, own) if c == 1 else field.add(given, own)):
+            step.refuse("the generator has another argument")
 
 
 Rule = Callable[[Step, list[Value], Value], None]
@@ -250,5 +251,7 @@ def require_defined(signs: Signs, g: Generator, where: str) -> None:
             "asin": ("nonnegative", field.sub(one, square)),
             "acos": ("nonnegative", field.sub(one, square)),
         }
+        if g.name == "atan2":
+            needs["atan2"] = ("nonzero", field.add(square, field.mul(g.args[1], g.args[1])))
         if g.name in needs:
             signs.require_value(*needs[g.name], where)

@@ -22,7 +22,8 @@ from symctrl.kernel.polynomial import Poly, Relation, monomial, powers, relation
 MAX_ROOT = 1000
 _OTHER = {"i": "j", "j": "i"}
 MAX_TEXT = 20_000
-FUNCTIONS = ("tanh", "atan", "log", "asin", "acos")  # of one argument, without a relation
+# The functions that have no relation, with their numbers of arguments.
+FUNCTIONS = {**dict.fromkeys(("tanh", "atan", "log", "asin", "acos", "erf", "floor", "ceil"), 1), "atan2": 2}
 
 
 @dataclass(frozen=True)
@@ -122,7 +123,7 @@ def _read_function(entry: dict[str, Any], field: Field, where: str) -> Generator
     args = tuple(field.read(arg, where) for arg in typed(entry["of"], list, where))
     if name not in FUNCTIONS:
         raise Declined(f"{where}: {name[:40]!r} has no rule in the kernel")
-    if len(args) != 1:
+    if len(args) != FUNCTIONS[name]:
         raise Invalid(f"{where}: {name} of {len(args)} arguments")
     return Generator("function", name=name, args=args)
 

@@ -13,7 +13,7 @@ from symctrl import Study, equal, nonnegative, positive_definite
 from symctrl.certify import certificate
 from symctrl.decide.claims import parts, verdict_of
 from symctrl.kernel.check import check_text
-from symctrl.vectors import absolute, cosh, eye, minimum, sinh, tanh
+from symctrl.vectors import absolute, atan2, cosh, eye, minimum, sinh, tanh
 
 study = Study("rules", source="rules of the kernel")
 x, y = study.parameter("x"), study.parameter("y")
@@ -29,6 +29,7 @@ CLAIMS = {
     "assumed": positive_definite(k * J + eye(3)),
     "sum": equal(fleet.sum(j, squares, at=i), fleet.degree(i)),
     "hyperbolic": equal(cosh(x) ** 2 - sinh(x) ** 2, 1),
+    "angle": equal(atan2(x * y, x**2 + 1) * 2, atan2(y * x, 1 + x**2) * 2),
     "least": nonnegative(x - minimum(x, y)),
 }
 
@@ -116,3 +117,12 @@ def test_uses_are_read_strictly(uses: Any) -> None:
     assert status(changed) == "invalid"
     changed["statement"]["uses"] = [{"id": "another claim", "sha256": "0" * 64}]
     assert status(changed) == "valid"
+
+
+def test_an_angle_of_other_coordinates_is_another_one():
+    changed = made("angle")
+    generator = next(g for g in changed["proof"]["generators"] if g.get("function") == "atan2")
+    generator["of"].reverse()
+    assert status(changed) == "invalid"
+    generator["of"].pop()
+    assert status(changed) == "invalid"
