@@ -13,6 +13,7 @@ constant: its derivative is None, and nothing is asked.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, Generic, TypeVar
@@ -24,34 +25,34 @@ Level = Any
 MAX_POWER = 1000
 
 
-class Domain(Generic[Value]):
+class Domain(ABC, Generic[Value]):
     """What the basic operations mean on the values of one type (level 0)."""
 
-    def constant(self, value: Fraction) -> Value:
-        raise NotImplementedError
+    @abstractmethod
+    def constant(self, value: Fraction) -> Value: ...
 
-    def add(self, a: Value, b: Value) -> Value:
-        raise NotImplementedError
+    @abstractmethod
+    def add(self, a: Value, b: Value) -> Value: ...
 
-    def mul(self, a: Value, b: Value) -> Value:
-        raise NotImplementedError
+    @abstractmethod
+    def mul(self, a: Value, b: Value) -> Value: ...
 
+    @abstractmethod
     def inv(self, a: Value) -> Value:
         """1/a. Raises Invalid where a may be zero."""
-        raise NotImplementedError
 
     def function(self, op: str, args: Sequence[Value]) -> Value:
         """An operation that is not a ring operation, by its opcode: SQRT FABS SIGN SIN COS EXP LOG TANH ...,
         and POW with an exponent that is not an integer constant. Raises Declined for one without a rule."""
-        raise NotImplementedError
+        raise Declined(f"{op} of {len(args)} arguments has no rule")
 
+    @abstractmethod
     def nonzero(self, a: Value) -> None:
         """Take note that a != 0 is needed. Raises Invalid where it cannot be had."""
-        raise NotImplementedError
 
+    @abstractmethod
     def rational(self, a: Value) -> Fraction | None:
         """The number that `a` is known to be exactly, or None."""
-        raise NotImplementedError
 
     def neg(self, a: Value) -> Value:
         return self.mul(self.constant(Fraction(-1)), a)

@@ -10,18 +10,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from symctrl.kernel import combination, conforms, definite, identity, squeeze, witness
 from symctrl.kernel.certificate import Declined, Invalid, Refused
 from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
 from symctrl.kernel.printing import line, print_statement
-from symctrl.kernel.values import Certificate, Condition
+from symctrl.kernel.values import Certificate, Condition, Statement
 
-# The module with the rules of each kind of proof: `needed_conditions(statement, proof)`. Others may be added.
-_KINDS = ("identity", "combination", "definite", "conforms", "witness", "squeeze")
-PROOFS = {kind: f"symctrl.kernel.{kind}" for kind in _KINDS}
+# The function of each kind of proof that checks it and gives the conditions it needs. Others may be added.
+Rules = Callable[[Statement, dict[str, Any]], set[Condition]]
+PROOFS: dict[str, Rules] = {
+    "identity": identity.needed_conditions,
+    "combination": combination.needed_conditions,
+    "definite": definite.needed_conditions,
+    "conforms": conforms.needed_conditions,
+    "witness": witness.needed_conditions,
+    "squeeze": squeeze.needed_conditions,
+}
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
 
@@ -88,9 +95,7 @@ def _needed(certificate: Certificate) -> set[Condition]:
     kind = certificate.proof.get("kind")
     if not isinstance(kind, str) or kind not in PROOFS:
         raise Declined(f"a proof of the kind {str(kind)[:60]!r} is not known")
-    rules = import_module(PROOFS[kind])
-    needed: set[Condition] = rules.needed_conditions(certificate.statement, certificate.proof)
-    return needed
+    return PROOFS[kind](certificate.statement, certificate.proof)
 
 
 def verify(certificate: Certificate) -> None:

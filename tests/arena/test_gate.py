@@ -1,11 +1,15 @@
 """The arena: the kernel answers every case as expected, and no checker passes that does not check."""
 
 import json
+import shutil
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from symctrl.kernel import check
 from symctrl.kernel.certificate import Invalid, Unreadable
 from symctrl.kernel.check import check_file
 from symctrl.kernel.loading import load
@@ -41,6 +45,17 @@ def wrong(checker: Checker, folder: str) -> list[str]:
 @pytest.mark.parametrize("folder", ["good", "bad", "corner"])
 def test_the_kernel_passes(folder):
     assert wrong(kernel, folder) == []
+
+
+def test_the_kernel_stands_alone(tmp_path):
+    """A copy of its folder answers the same where Python finds the standard library and nothing else."""
+    shutil.copytree(Path(check.__file__).parent, tmp_path / "symctrl" / "kernel")
+    files = [str(ROOT / name) for name in EXPECTED]
+    command = [sys.executable, "-S", "-E", "-s", "-m", "symctrl.kernel", *files]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert done.stderr == ""
+    for name, status in EXPECTED.items():
+        assert f"{ROOT / name}: {status}: " in done.stdout
 
 
 @pytest.mark.parametrize(
