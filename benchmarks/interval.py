@@ -13,7 +13,7 @@ from typing import Any
 import casadi as ca
 from mpmath import iv
 
-from symctrl.domains.domain import Domain
+from symctrl.domains.domain import Domain, Operators
 from symctrl.domains.interval import IntervalDomain, ball
 from symctrl.graph import Tape, prebound, read
 
@@ -30,7 +30,7 @@ def closed_loop() -> Tape:
     return read(ca.Function("closed_loop", [q, w, t, entries], [energy_rate, acceleration]))
 
 
-class MpmathIntervals(Domain[Any]):
+class MpmathIntervals(Operators[Any]):
     """The operations of the example in mpmath's interval context."""
 
     name = "mpmath iv"
@@ -38,15 +38,6 @@ class MpmathIntervals(Domain[Any]):
 
     def constant(self, value: Fraction) -> Any:
         return iv.mpf(value.numerator) / value.denominator
-
-    def add_(self, a: Any, b: Any) -> Any:
-        return a + b
-
-    def mul_(self, a: Any, b: Any) -> Any:
-        return a * b
-
-    def inv_(self, a: Any) -> Any:
-        return 1 / a
 
     def sq_(self, a: Any) -> Any:
         return a**2

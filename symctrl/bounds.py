@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NoReturn
@@ -14,18 +15,18 @@ from symctrl.text import text
 _LATEX_SIGN: dict[str, str] = {">=": r"\ge", "<=": r"\le", ">": ">", "<": "<"}
 
 
-class Statement:
+class Statement(ABC):
     """Base of all statements."""
 
     @property
-    def kind(self) -> str:
-        raise NotImplementedError
+    @abstractmethod
+    def kind(self) -> str: ...
 
-    def latex(self) -> str:
-        raise NotImplementedError
+    @abstractmethod
+    def latex(self) -> str: ...
 
-    def text(self) -> str:
-        raise NotImplementedError
+    @abstractmethod
+    def text(self) -> str: ...
 
     def __bool__(self) -> NoReturn:
         raise TypeError(

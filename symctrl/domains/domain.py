@@ -6,9 +6,10 @@ are overridden where a domain can do better. An operation without a meaning is r
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from fractions import Fraction
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from symctrl.graph import ARITY
 
@@ -19,7 +20,7 @@ class Unsupported(ValueError):  # noqa: N818
     """The domain gives the operation no meaning."""
 
 
-class Domain(Generic[Value]):
+class Domain(ABC, Generic[Value]):
     """Base of all domains over values of one type. Methods are named after CasADi's opcodes in lower case."""
 
     name = "domain"
@@ -31,18 +32,18 @@ class Domain(Generic[Value]):
             raise Unsupported(f"the {self.name} domain gives no meaning to {op.lower()}")
         return method
 
+    @abstractmethod
     def constant(self, value: Fraction) -> Value:
         """The value of an exact rational literal."""
-        raise NotImplementedError
 
-    def add_(self, a: Value, b: Value) -> Value:
-        raise NotImplementedError
+    @abstractmethod
+    def add_(self, a: Value, b: Value) -> Value: ...
 
-    def mul_(self, a: Value, b: Value) -> Value:
-        raise NotImplementedError
+    @abstractmethod
+    def mul_(self, a: Value, b: Value) -> Value: ...
 
-    def inv_(self, a: Value) -> Value:
-        raise NotImplementedError
+    @abstractmethod
+    def inv_(self, a: Value) -> Value: ...
 
     def neg_(self, a: Value) -> Value:
         return self.mul_(self.constant(Fraction(-1)), a)
@@ -73,3 +74,22 @@ class Domain(Generic[Value]):
 
     def constpow_(self, a: Value, b: Value) -> Value:
         return self.operation("POW")(a, b)
+
+
+class Operators(Domain[Value]):
+    """Base of the domains whose values know Python's operators."""
+
+    def add_(self, a: Any, b: Any) -> Any:
+        return a + b
+
+    def sub_(self, a: Any, b: Any) -> Any:
+        return a - b
+
+    def mul_(self, a: Any, b: Any) -> Any:
+        return a * b
+
+    def neg_(self, a: Any) -> Any:
+        return -a
+
+    def inv_(self, a: Any) -> Any:
+        return 1 / a

@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable
 from fractions import Fraction
 
-from symctrl.domains.domain import Domain
+from symctrl.domains.domain import Operators
 
 MAX_BITS = 1_000_000
 
@@ -81,7 +81,7 @@ def _truth(value: bool) -> Fraction:
     return _ONE if value else _ZERO
 
 
-class FractionDomain(Domain[Fraction]):
+class FractionDomain(Operators[Fraction]):
     """Values are `Fraction`; a truth value is 0 or 1, and every value but 0 is true.
 
     Raises Undefined, Irrational or TooLarge, which are all NoExactValue.
@@ -91,18 +91,6 @@ class FractionDomain(Domain[Fraction]):
 
     def constant(self, value: Fraction) -> Fraction:
         return value
-
-    def add_(self, a: Fraction, b: Fraction) -> Fraction:
-        return a + b
-
-    def sub_(self, a: Fraction, b: Fraction) -> Fraction:
-        return a - b
-
-    def mul_(self, a: Fraction, b: Fraction) -> Fraction:
-        return a * b
-
-    def neg_(self, a: Fraction) -> Fraction:
-        return -a
 
     def inv_(self, a: Fraction) -> Fraction:
         if not a:

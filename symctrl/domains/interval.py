@@ -17,7 +17,7 @@ from typing import Any, TypeAlias
 import flint
 from flint import arb
 
-from symctrl.domains.domain import Domain
+from symctrl.domains.domain import Operators
 from symctrl.graph import Tape, prebound
 
 Ball: TypeAlias = Any  # flint.arb, which has no type information
@@ -87,7 +87,7 @@ def _truth(true: bool, false: bool, *args: Ball) -> Ball:
     return NAN if any(a.is_nan() for a in args) else EITHER
 
 
-class IntervalDomain(Domain[Ball]):
+class IntervalDomain(Operators[Ball]):
     """Values are `flint.arb`. bits: the working precision of `walk` and `constant`.
 
     Outside `walk` and `working` an operation rounds at FLINT's current precision; it encloses all the same.
@@ -127,9 +127,6 @@ class IntervalDomain(Domain[Ball]):
         r = a + b
         return r if r > ZERO or not (a >= ZERO and b >= ZERO) else r.nonnegative_part()
 
-    def sub_(self, a: Ball, b: Ball) -> Ball:
-        return a - b
-
     def mul_(self, a: Ball, b: Ball) -> Ball:
         """The plain product of two wide balls is up to twice too wide, so it is the hull over the ends."""
         r = a * b
@@ -139,9 +136,6 @@ class IntervalDomain(Domain[Ball]):
         hull = reduce(arb.union, [x * y for x, y in ends])
         alike = (a >= ZERO and b >= ZERO) or (a <= ZERO and b <= ZERO)
         return hull.nonnegative_part() if alike else hull
-
-    def neg_(self, a: Ball) -> Ball:
-        return -a
 
     def div_(self, a: Ball, b: Ball) -> Ball:
         return self.mul_(a, 1 / b)
@@ -169,9 +163,6 @@ class IntervalDomain(Domain[Ball]):
 
     def twice_(self, a: Ball) -> Ball:
         return a + a
-
-    def inv_(self, a: Ball) -> Ball:
-        return 1 / a
 
     def sq_(self, a: Ball) -> Ball:
         """Never negative, unlike the product of a ball with itself."""

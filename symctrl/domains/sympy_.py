@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-from symctrl.domains.domain import Domain
+from symctrl.domains.domain import Operators
 from symctrl.graph import Tape, interpret
 
 Expression: TypeAlias = Any  # sympy.Expr, which has no type information
@@ -37,7 +37,7 @@ def to_sympy(tape: Tape, symbols: Mapping[str, Expression] | None = None) -> lis
     return interpret(tape, domain, {n: given[n] if n in given else domain.symbol(n) for n in tape.inputs})
 
 
-class SympyDomain(Domain[Expression]):
+class SympyDomain(Operators[Expression]):
     """Values are SymPy expressions, evaluated by SymPy as they are built (x/x becomes 1).
 
     A truth value is 0 or 1, by a Piecewise. REMAINDER, which rounds halves to even, has no SymPy function.
@@ -73,15 +73,6 @@ class SympyDomain(Domain[Expression]):
 
     def constant(self, value: Fraction) -> Expression:
         return self._sympy.Rational(value.numerator, value.denominator)
-
-    def add_(self, a: Expression, b: Expression) -> Expression:
-        return a + b
-
-    def mul_(self, a: Expression, b: Expression) -> Expression:
-        return a * b
-
-    def inv_(self, a: Expression) -> Expression:
-        return 1 / a
 
     def pow_(self, a: Expression, b: Expression) -> Expression:
         return a**b

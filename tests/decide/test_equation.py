@@ -10,7 +10,7 @@ from symctrl.kernel.check import check_text
 from symctrl.vectors import absolute, exp, power, sgn, sqrt, tanh
 from symctrl.verdict import Outcome
 from tests.decide.problems import body, problem
-from tests.domains.test_exact import FALSE, TRUE
+from tests.domains.test_exact_identities import FALSE, TRUE
 
 
 def start():

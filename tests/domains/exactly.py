@@ -9,7 +9,7 @@ from typing import Any
 import casadi as ca
 import mpmath
 
-from symctrl.domains.domain import Domain
+from symctrl.domains.domain import Domain, Operators
 from symctrl.domains.exact import ExactDomain
 from symctrl.domains.field import Field, OutOfGenerators
 from symctrl.domains.opaque import Knowledge, Refine
@@ -76,19 +76,13 @@ def is_zero(expr: Expr, **more: Any) -> bool:
     return bool(exactly(lambda domain, found: domain.is_zero(found[0]), expr, **more))
 
 
-class Numbers(Domain[Any]):
+class Numbers(Operators[Any]):
     """Real numbers in mpmath's working precision. Raises Undefined."""
 
     name = "mpmath"
 
     def constant(self, value: Fraction) -> Any:
         return mpmath.mpf(value.numerator) / value.denominator
-
-    def add_(self, a: Any, b: Any) -> Any:
-        return a + b
-
-    def mul_(self, a: Any, b: Any) -> Any:
-        return a * b
 
     def inv_(self, a: Any) -> Any:
         return self.operation("INV")(a)
