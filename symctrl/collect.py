@@ -367,6 +367,8 @@ def _sides(claim: Statement) -> tuple[list[Expr], str, tuple[int, int]]:
         return [claim.expr], claim.kind, claim.expr.shape
     if isinstance(claim, Definite):
         return [claim.matrix], claim.kind, claim.matrix.shape
+    if isinstance(claim, Nonzero):
+        return [claim.expr**2], "positive", claim.expr.shape  # x != 0 is x^2 > 0, for which there are proofs
     expr: Expr = claim.expr  # type: ignore[attr-defined]
     return [expr], claim.kind, expr.shape
 

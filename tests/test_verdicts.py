@@ -13,6 +13,7 @@ from symctrl import (
     equivalent,
     implies,
     nonnegative,
+    nonzero,
     positive,
     positive_definite,
     positive_semidefinite,
@@ -84,6 +85,9 @@ TRUE = [
     equal(norm(R @ v), norm(v)),
     nonnegative(x**2 - 2 * x * y + y**2),
     positive(x**2 + 1),
+    nonzero(exp(x) + y**2),
+    nonzero(-1 - x**2),
+    nonzero(det(R)),
     nonnegative(g * x**2 + k * y**2),
     nonnegative(k * absolute(x) - k * x),
     nonnegative(g * absolute(s) - d * s),
@@ -113,6 +117,9 @@ TRUE = [
 ]
 
 FALSE = [
+    nonzero(x**2 - 4 * y),
+    nonzero(x),
+    implies(x >= 0, nonzero(x)),
     equal(R @ R, eye(3)),
     equal(det(R), "1.000000000000000000000000000001"),
     equal(skew(R @ v), R.T @ skew(v) @ R),

@@ -5,6 +5,7 @@ from derivations.liang2016_formation.model import dq, product
 from derivations.liang2016_formation.rate import de
 from derivations.liang2016_formation.symbols import beta, fleet, omega, q, study
 from symctrl import equal, nonnegative
+from symctrl.quaternion import Quaternion
 from symctrl.statements import implies
 from symctrl.vectors import stack
 
@@ -16,14 +17,8 @@ q_a, q_b = study.unit_quaternion("q_a"), study.unit_quaternion("q_b")  # two cra
 def rate_gives_omega(i):
     """The angular velocity is twice the product of the conjugate quaternion and its rate."""
     rate = study.rate(q[i].stacked)
-    back = product(q[i].conjugate, _quaternion(rate))
+    back = product(q[i].conjugate, Quaternion(rate[:3], rate[3]))
     return equal(stack(omega[i], 0), 2 * back.stacked)
-
-
-def _quaternion(x):
-    from symctrl.quaternion import Quaternion
-
-    return Quaternion(x[:3], x[3])
 
 
 @study.printed("after (10)", readings={"as printed": lambda x: x, "q_i transposed": lambda x: x.T})

@@ -135,14 +135,17 @@ STEPS = [row_of_Q_inverse, acceleration_bound, disturbance_norm, disturbance_in_
     using=STEPS,
 )
 def K_v_is_enough():
-    """With K_v = u_bar alpha no component of K_v - A^-1 Q'u_d is negative."""
+    """For any a with |a| <= 1/2 and w with |w| <= sqrt(3) u_bar alpha, K_v = u_bar alpha is at least a'w.
+
+    By the four steps the components of A^-1 Q'u_d are such a'w.
+    """
     claim = nonnegative(bound - a.T @ w).by(times=6 * bound, squares=[3 * bound * a - w])
     return implies(assumed(), claim)
 
 
 @study.claimed("before (6)", using=STEPS)
 def K_v_smallest():
-    """Already K_v = (sqrt(3)/2) u_bar alpha is enough."""
+    """For the same a and w already K_v = (sqrt(3)/2) u_bar alpha is at least a'w."""
     claim = nonnegative(sqrt(3) / 2 * bound - a.T @ w).by(
         times=4 * sqrt(3) * bound, squares=[2 * sqrt(3) * bound * a - w]
     )

@@ -4,7 +4,7 @@ from derivations.liang2016_formation.control import V, V_i, control, e, s, stiff
 from derivations.liang2016_formation.model import A, Q, dq
 from derivations.liang2016_formation.symbols import K_o, K_q, K_v, beta, fleet, q, study, u_d
 from symctrl import conforms, equal
-from symctrl.statements import positive
+from symctrl.statements import nonzero, positive
 from symctrl.vectors import absolute, det, diagonal, eye, inverse, kron, sgn, stack
 
 i, j = fleet.node, fleet.neighbour
@@ -30,7 +30,7 @@ def A_is_invertible(i):
 @study.claimed("before (4)")
 def Q_is_invertible(i):
     """The determinant of Q is not zero."""
-    return positive(det(Q(i)) ** 2)
+    return nonzero(det(Q(i)))
 
 
 @study.printed("(5)", using=[A_is_invertible])
