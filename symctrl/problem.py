@@ -69,6 +69,10 @@ class Claim:
     matrix: Mapping[str, Any] | None = None
     small: str | None = None
 
+    def __post_init__(self) -> None:
+        if self.small is not None and self.matrix is None:
+            raise ValueError(f"a claim of the kind {self.kind} cannot be for small values of {self.small}")
+
     def as_json(self) -> dict[str, Any]:
         if self.matrix is not None:
             small = {"small": self.small} if self.small is not None else {}

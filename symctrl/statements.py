@@ -85,6 +85,7 @@ class Conforms(Statement):
         return f"{text(self.expr)} is well formed, {self.expr.shape[0]}x{self.expr.shape[1]}"
 
 
+Small = Bound | Nonzero | Definite  # what can be claimed for small values
 Plain = Equal | Bound | Nonzero | Definite  # what can be a hypothesis, a condition or the claim under them
 Claimable = Statement | Comparison  # what an author writes for one
 
@@ -135,7 +136,7 @@ class SufficientlySmall(Statement):
     """There is a bound b > 0 such that the claim holds for every value of the gain in (0, b)."""
 
     gain: Expr
-    claim: Plain
+    claim: Small
 
     @property
     def kind(self) -> str:
@@ -253,12 +254,18 @@ def equivalent(conditions: Claimable | Sequence[Claimable], claim: Claimable) ->
 
 
 def sufficiently_small(gain: Expr, claim: Claimable) -> SufficientlySmall:
-    """The claim for every small enough positive value of a gain. Raises TypeError if gain is no scalar
-    symbol.
+    """The claim, a bound or definiteness, for every small enough positive value of a gain.
+
+    Raises TypeError if gain is no scalar symbol, and for an equation.
     """
     if not isinstance(gain, Expr) or gain.op != "symbol" or gain.shape != SCALAR:
         raise TypeError(f"sufficiently_small: the first argument is a gain, a scalar symbol, not {gain!r}")
-    return SufficientlySmall(gain, _plain(claim, "sufficiently_small", "claim"))
+    plain = _plain(claim, "sufficiently_small", "claim")
+    if isinstance(plain, Equal):
+        raise TypeError(
+            f"sufficiently_small: {plain.text()} is an equation; claim it for all values, or a bound"
+        )
+    return SufficientlySmall(gain, plain)
 
 
 def conforms(expr: Liftable) -> Conforms:

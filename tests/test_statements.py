@@ -154,6 +154,7 @@ HELP: list[tuple[Callable[[], Any], str]] = [
     (lambda: sufficiently_small(2 * k, y > 0), "a scalar symbol"),
     (lambda: sufficiently_small(v, y > 0), "a scalar symbol"),
     (lambda: sufficiently_small(k, y), "a claim is"),  # type: ignore[arg-type]
+    (lambda: sufficiently_small(k, equal(y, 0)), "is an equation"),
 ]
 
 

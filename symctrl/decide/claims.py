@@ -17,7 +17,7 @@ from symctrl.decide.decision import decide
 from symctrl.kernel.check import check_text
 from symctrl.problem import Problem
 from symctrl.reach import closings
-from symctrl.statements import AtValues, Equivalent, Implies, SufficientlySmall
+from symctrl.statements import AtValues, Definite, Equivalent, Implies, Nonzero, Small, SufficientlySmall
 from symctrl.verdict import Condition, Outcome, Verdict
 from symctrl.written import StudyError
 
@@ -60,10 +60,21 @@ def parts(
     if isinstance(claim, Implies):
         return [made(claim.claim, claim.hypotheses)]
     if isinstance(claim, SufficientlySmall):
-        return [made(claim.claim, (), small=claim.gain.args[0])]
+        return [made(one, (), small=claim.gain.args[0]) for one in _as_definite(claim.claim)]
     if not isinstance(claim, Statement):
         raise StudyError(f"{id_} returns {claim!r}; a statement returns a claim, like equal(a, b)")
     return [made(claim, ())]
+
+
+def _as_definite(claim: Small) -> list[Definite]:
+    """A bound, as definiteness of a 1 x 1 matrix for each component; proofs for small values are of that."""
+    if isinstance(claim, Definite):
+        return [claim]
+    if isinstance(claim, Nonzero):
+        return [Definite(claim.expr**2, strict=True)]
+    rows, columns = claim.expr.shape
+    entries = [claim.expr[r, c] for r in range(rows) for c in range(columns)]
+    return [Definite(entry, claim.strict) for entry in entries]
 
 
 def digest_of(found: Sequence[Part]) -> str:

@@ -35,12 +35,12 @@ def attempt(problem: Problem) -> Attempt:
     proof = exactly(problem, lambda session: _proof(session, tree, strict, problem.claim.small))
     if proof is not None:
         return Attempt(proof=proof, reason=f"{_how(proof['matrix'])}", method="exact definiteness")
-    found = None if problem.claim.small else _refuted(problem, tree, strict)
+    small = problem.claim.small
+    found = None if small else _refuted(problem, tree, strict)
     if found is not None:
         return Attempt(witness=found)
-    return Attempt(
-        reason=f"no certificate was found, and none of {TRIES} points refutes it", method="exact definiteness"
-    )
+    tried = f"no one value of {small} would refute it" if small else f"none of {TRIES} points refutes it"
+    return Attempt(reason=f"no certificate was found, and {tried}", method="exact definiteness")
 
 
 def _proof(session: Session, tree: Tree, strict: bool, small: str | None) -> dict[str, Any] | None:
