@@ -16,6 +16,7 @@ from symctrl.graph import Tape
 Output = tuple[str, int]  # output k of a listing
 ADVICE = "advice"
 PROVED = "statement"  # what an assumption is about that is a proved statement
+OBLIGATION = "obligation"  # what an assumption is about that belongs to one obligation of a rule
 
 
 @dataclass(frozen=True)
@@ -57,10 +58,10 @@ class Assumption:
 
 @dataclass(frozen=True)
 class Claim:
-    """`kind` is equal, nonnegative, positive, positive_definite, positive_semidefinite or conforms.
+    """`kind` is equal, nonnegative, positive, positive_definite, positive_semidefinite, conforms or theorem.
 
     matrix: for definiteness, the tree of docs/certificates.md. small: a gain; the claim is for its small
-    positive values.
+    positive values. theorem: the law of the closed loop, and what is supposed and concluded of its solutions.
     """
 
     kind: str
@@ -68,6 +69,7 @@ class Claim:
     shape: tuple[int, int] = (1, 1)
     matrix: Mapping[str, Any] | None = None
     small: str | None = None
+    theorem: Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
         if self.small is not None and self.matrix is None:
@@ -77,6 +79,8 @@ class Claim:
         if self.matrix is not None:
             small = {"small": self.small} if self.small is not None else {}
             return {"kind": self.kind, "matrix": self.matrix, "listing": self.listing} | small
+        if self.theorem is not None:
+            return {"kind": self.kind, "listing": self.listing} | dict(self.theorem)
         return {"kind": self.kind, "shape": list(self.shape), "listing": self.listing}
 
 

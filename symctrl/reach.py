@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from symctrl.graph import Instruction, Tape
-from symctrl.problem import PROVED, Assumption, Meaning, Output, Problem, star
+from symctrl.problem import OBLIGATION, PROVED, Assumption, Meaning, Output, Problem, star
 
 Visit = tuple[str, int, str | None]  # listing, level, law
 
@@ -190,6 +190,8 @@ def with_motion(problem: Problem, name: str, size: Sequence[str], listing: str) 
 
 def _is_about(problem: Problem, assumption: Assumption, read: Collection[str]) -> bool:
     """Does a state or signal of the assumption occur, or any symbol of one that is about parameters only?"""
+    if assumption.about == OBLIGATION:
+        return True
     symbols = {star(n) for of in assumption.of for n in problem.listings[of[0]].inputs}
     if assumption.about == PROVED:
         return bool(symbols & set(read))

@@ -22,10 +22,10 @@ def attempt(problem: Problem) -> Attempt:
     """
     reason = "no combination of the assumptions was found that proves it"
     try:
-        proof = exactly(problem, lambda session: _proof(session, problem.claim.kind == "positive"))
-        if proof is not None:
+        found_proof = proof(problem)
+        if found_proof is not None:
             return Attempt(
-                proof=proof, reason="a combination of assumptions and squares", method="combination"
+                proof=found_proof, reason="a combination of assumptions and squares", method="combination"
             )
     except Unsupported as error:
         reason = str(error)
@@ -33,6 +33,11 @@ def attempt(problem: Problem) -> Attempt:
     if found is not None:
         return Attempt(witness=found)
     return Attempt(reason=f"{reason}, and none of {TRIES} points refutes it", method="combination")
+
+
+def proof(problem: Problem) -> dict[str, Any] | None:
+    """A proof of entries >= 0 (> 0); None if there is none. Raises Unsupported."""
+    return exactly(problem, lambda session: _proof(session, problem.claim.kind == "positive"))
 
 
 def _proof(session: Session, strict: bool) -> dict[str, Any] | None:

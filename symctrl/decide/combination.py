@@ -49,12 +49,36 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     """The entry of a combination for one value, with the author's multiplier where there is one; None if none
     is found.
     """
-    if known.times is None:
-        terms = terms_of(session, value, strict, known)
-        return _by_fact(session, value, strict) if terms is None else {"terms": terms}
-    scaled = session.domain.polynomial(session.domain.field.normal(session.carrier(value) * known.times))
+    if known.times is not None:
+        return _scaled_entry(session, value, strict, known, known.times)
+    terms = terms_of(session, value, strict, known)
+    if terms is not None:
+        return {"terms": terms}
+    found = _by_fact(session, value, strict)
+    for times in _leading_positives(session) if found is None else ():
+        found = found or _scaled_entry(session, value, strict, known, times)
+    return found
+
+
+def _scaled_entry(
+    session: Session, value: Exact, strict: bool, known: Known, times: Poly
+) -> dict[str, Any] | None:
+    """The entry of the value times something that is known to be positive."""
+    scaled = session.domain.polynomial(session.domain.field.normal(session.carrier(value) * times))
     terms = terms_of(session, scaled, strict, known)
-    return None if terms is None else {"terms": terms, "times": session.domain.field.json(known.times)}
+    return None if terms is None else {"terms": terms, "times": session.domain.field.json(times)}
+
+
+def _leading_positives(session: Session) -> list[Poly]:
+    """The positive generators that lead an assumed equation, whose terms are rewritten only with them; squared."""
+    field, signs = session.domain.field, session.domain.signs
+    product = field.polynomial(1)
+    for p in [p for _, p in session.zeros] + [new.polynomial for new, _ in session.derived]:
+        for v, e in enumerate(p.monomial(0)):
+            k = field.size - 1 - v
+            if e and signs.generator.get(k) == "positive":
+                product = product * field.variable(k) ** int(e)
+    return [] if product.is_one() else [product, product * product]
 
 
 def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from symctrl.certify import certificate
 from symctrl.decide import bound, definite, equation
@@ -30,6 +31,14 @@ DECIDERS: Mapping[str, Decider] = {
     "positive_semidefinite": definite.attempt,
 }
 
+
+PROVERS: Mapping[str, Callable[[Problem], dict[str, Any] | None]] = {
+    "equal": equation.proof,
+    "nonnegative": bound.proof,
+    "positive": bound.proof,
+    "positive_definite": definite.proof,
+    "positive_semidefinite": definite.proof,
+}
 
 NOT_ACCEPTED = "the kernel does not accept what was found"
 

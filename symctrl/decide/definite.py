@@ -32,15 +32,22 @@ def attempt(problem: Problem) -> Attempt:
     strict = problem.claim.kind == "positive_definite"
     assert problem.claim.matrix is not None
     tree = dict(problem.claim.matrix)
-    proof = exactly(problem, lambda session: _proof(session, tree, strict, problem.claim.small))
-    if proof is not None:
-        return Attempt(proof=proof, reason=f"{_how(proof['matrix'])}", method="exact definiteness")
+    made = proof(problem)
+    if made is not None:
+        return Attempt(proof=made, reason=f"{_how(made['matrix'])}", method="exact definiteness")
     small = problem.claim.small
     found = None if small else _refuted(problem, tree, strict)
     if found is not None:
         return Attempt(witness=found)
     tried = f"no one value of {small} would refute it" if small else f"none of {TRIES} points refutes it"
     return Attempt(reason=f"no certificate was found, and {tried}", method="exact definiteness")
+
+
+def proof(problem: Problem) -> dict[str, Any] | None:
+    """A proof of definiteness; None if there is none. Raises Unsupported."""
+    assert problem.claim.matrix is not None
+    tree, strict = dict(problem.claim.matrix), problem.claim.kind == "positive_definite"
+    return exactly(problem, lambda session: _proof(session, tree, strict, problem.claim.small))
 
 
 def _proof(session: Session, tree: Tree, strict: bool, small: str | None) -> dict[str, Any] | None:

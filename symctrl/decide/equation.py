@@ -47,6 +47,11 @@ def attempt(problem: Problem) -> Attempt:
     )
 
 
+def proof(problem: Problem) -> dict[str, Any] | None:
+    """A proof of left = right by normal forms, or by signs; None if there is none. Raises Unsupported."""
+    return exactly(problem, _proof)[0] or exactly(problem, squeeze.proof)
+
+
 def _first_look(problem: Problem) -> Witness | None:
     """A witness among a few points: what is false by much is refuted before it is evaluated exactly."""
     try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from symctrl.decide.combination import Known, terms_of
+from symctrl.decide.combination import Known, entry_of
 from symctrl.decide.identity import residuals
 from symctrl.decide.session import Session
 
@@ -27,5 +27,5 @@ def proof(session: Session) -> dict[str, Any] | None:
 def _entry(session: Session, value: Any, n: int) -> dict[str, Any] | None:
     power = session.domain.neg_(session.domain.power(value, 2 * n))
     variables = tuple(session.domain.simplified(value).values())
-    terms = terms_of(session, power, False, Known(squares=variables))
-    return None if terms is None else {"power": n, "terms": terms}
+    entry = entry_of(session, power, False, Known(squares=variables))
+    return None if entry is None else {"power": n} | entry

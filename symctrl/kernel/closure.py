@@ -25,7 +25,9 @@ def require_closed(statement: Statement) -> None:
     for assumption in statement.given:
         for ref in assumption.of:
             walk.listing(ref[0], "i", 0, None)
-    walk.listing(statement.claim.listing, "ij", 0, None)
+    walk.listing(statement.claim.listing, "ij", 0, statement.claim.law)
+    if statement.claim.kind == "theorem":
+        walk.closed_loop(statement.claim.law)
     listings = {visit[0] for visit in walk.done}
     law_inputs = {(law, u) for law, table in statement.laws.items() for u in table}
     for what, all_of, used in (
@@ -60,6 +62,7 @@ class Reach:
         self.open: set[Visit] = set()
         self.read: set[str] = set()
         self.moved: set[str] = set()
+        self.looped: set[str] = set()
         self.laws: set[str] = set()
         self.replaced: set[tuple[str, str]] = set()
         self.letters = {name: listing.letters for name, listing in statement.listings.items()}
@@ -82,6 +85,19 @@ class Reach:
                 self._input(split_name(step.name)[0], level, law)
         self.open.remove(visit)
         self.done.add(visit)
+
+    def closed_loop(self, law: str | None) -> None:
+        """Visit the motion under the law of everything that was read, and of what that reads."""
+        if law is not None:
+            self.laws.add(law)
+        while True:
+            new = [key for key in self.statement.motion if key in self.read and key not in self.looped]
+            if not new:
+                return
+            for key in new:
+                self.looped.add(key)
+                self.moved.add(key)
+                self.listing(self.statement.motion[key][0], "i", 0, law)
 
     def _input(self, key: str, level: int, law: str | None) -> None:
         self.read.add(key)
@@ -132,6 +148,8 @@ def _require_consistent_tables(statement: Statement) -> None:
         for key in table:
             if statement.scalars.get(key) != "input":
                 raise Invalid(f"the law {law[:60]!r} gives {key}, which is not an input")
+    if statement.claim.law is not None and statement.claim.law not in statement.laws:
+        raise Invalid(f"the law {statement.claim.law[:60]!r} of the closed loop is not given")
     for name, meaning in statement.names.items():
         if meaning.law is not None and meaning.law not in statement.laws:
             raise Invalid(f"name {name}: the law {meaning.law[:60]!r} is not given")

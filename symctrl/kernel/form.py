@@ -24,13 +24,38 @@ from symctrl.kernel.certificate import (
     text_field,
     typed,
 )
-from symctrl.kernel.values import Assumption, Claim, Condition, Listing, Meaning, Ref, Statement, Step, Use
+from symctrl.kernel.values import (
+    Assumption,
+    Claim,
+    Condition,
+    Listing,
+    Meaning,
+    Ref,
+    Sentence,
+    Statement,
+    Step,
+    Use,
+)
 
 MAX_INSTRUCTIONS = 2_000_000
 MAX_SIZE = 10_000  # rows or columns of a claim
 SCALAR_KINDS = ("state", "parameter", "input", "signal")
 SIGN_KINDS = ("zero", "nonzero", "positive", "nonnegative")
 DEFINITE_KINDS = ("positive_definite", "positive_semidefinite")
+WORDS = (
+    "exists",
+    "tends",
+    "exponentially",
+    "stays",
+    "enters",
+    "settles",
+    "eventually",
+    "bounded",
+    "apart",
+    "summable",
+    "stable",
+)
+SUPPOSABLE = ("tends", "bounded", "apart", "summable")
 CONDITION_KINDS = ("nonzero", "nonnegative", "positive")
 
 _UNARY = (
@@ -42,21 +67,11 @@ ARITY: Mapping[str, int] = {**dict.fromkeys(_UNARY.split(), 1), **dict.fromkeys(
 
 
 def read_statement(value: Any) -> Statement:
-    s = fields(value, set(Statement.__dataclass_fields__) - {"uses"}, "statement", ("uses",))
+    s = fields(value, set(Statement.__dataclass_fields__) - {"uses", "along"}, "statement", ("uses",))
     listings = {name: _listing(entry, f"listing {name[:60]!r}") for name, entry in _table(s, "listings")}
     if sum(len(listing.code) for listing in listings.values()) > MAX_INSTRUCTIONS:
         raise Declined(f"the listings have more than {MAX_INSTRUCTIONS} instructions")
-    scalars = {
-        _key(name): _one_of(kind, SCALAR_KINDS, f"scalar {name}") for name, kind in _table(s, "scalars")
-    }
-    names = {_key(name): _meaning(name, entry, listings) for name, entry in _table(s, "names")}
-    motion = {_key(name): _ref(entry, listings, f"motion of {name}") for name, entry in _table(s, "motion")}
-    laws = {
-        law: {
-            _key(u): _ref(ref, listings, f"law {law}") for u, ref in typed(entry, dict, f"law {law}").items()
-        }
-        for law, entry in _table(s, "laws")
-    }
+    tables = _tables(s, listings)
     given = tuple(
         _assumption(g, listings, f"given {k}") for k, g in enumerate(typed(s["given"], list, "given"))
     )
@@ -65,14 +80,49 @@ def read_statement(value: Any) -> Statement:
         raise Invalid("a condition is listed twice")
     study, id_, words = (text_field(s[field], field) for field in ("study", "id", "text"))
     claim = _claim(s["claim"], listings)
-    if claim.small is not None and scalars.get(claim.small) != "parameter":
+    if claim.small is not None and tables["scalars"].get(claim.small) != "parameter":
         raise Declined(f"the claim is about small values of {claim.small[:60]}, which is no parameter of it")
     uses = tuple(map(_use, typed(s["uses"], list, "uses") if "uses" in s else ()))
     if "uses" in s and not uses:
         raise Invalid("uses: an empty list is left out")
     return Statement(
-        study, id_, words, listings, scalars, names, motion, laws, given, claim, conditions, uses
+        study,
+        id_,
+        words,
+        listings,
+        tables["scalars"],
+        tables["names"],
+        tables["motion"],
+        tables["laws"],
+        given,
+        claim,
+        conditions,
+        uses,
     )
+
+
+def read_tables(s: Mapping[str, Any], known: Mapping[str, Listing]) -> dict[str, dict[str, Any]]:
+    """The tables that an argument adds to a statement whose listings are known."""
+    new = {name: _listing(entry, f"listing {name[:60]!r}") for name, entry in _table(s, "listings")}
+    if sum(len(listing.code) for listing in new.values()) > MAX_INSTRUCTIONS:
+        raise Declined(f"the listings have more than {MAX_INSTRUCTIONS} instructions")
+    return {"listings": new} | _tables(s, {**known, **new})
+
+
+def _tables(s: Mapping[str, Any], listings: Mapping[str, Listing]) -> dict[str, dict[str, Any]]:
+    return {
+        "scalars": {
+            _key(name): _one_of(kind, SCALAR_KINDS, f"scalar {name}") for name, kind in _table(s, "scalars")
+        },
+        "names": {_key(name): _meaning(name, entry, listings) for name, entry in _table(s, "names")},
+        "motion": {_key(name): _ref(ref, listings, f"motion of {name}") for name, ref in _table(s, "motion")},
+        "laws": {
+            law: {
+                _key(u): _ref(ref, listings, f"law {law}") for u, ref in typed(of, dict, f"law {law}").items()
+            }
+            for law, of in _table(s, "laws")
+        },
+    }
 
 
 def _use(value: Any) -> Use:
@@ -83,7 +133,7 @@ def _use(value: Any) -> Use:
     return Use(text_field(table["id"], "uses"), sha256)
 
 
-def _table(statement: dict[str, Any], field: str) -> list[tuple[str, Any]]:
+def _table(statement: Mapping[str, Any], field: str) -> list[tuple[str, Any]]:
     return list(typed(statement[field], dict, field).items())
 
 
@@ -180,6 +230,8 @@ def _assumption(value: Any, listings: Mapping[str, Listing], where: str) -> Assu
 
 def _claim(value: Any, listings: Mapping[str, Listing]) -> Claim:
     kind = typed(value, dict, "claim").get("kind")
+    if kind == "theorem":
+        return _theorem(value, listings)
     allowed = ("equal", "nonnegative", "positive", "conforms", *DEFINITE_KINDS)
     kind = _one_of(kind, allowed, "claim")
     shaped = kind not in DEFINITE_KINDS
@@ -199,6 +251,34 @@ def _claim(value: Any, listings: Mapping[str, Listing]) -> Claim:
     if len(shape) != 2 or shape[0] * shape[1] == 0 or shape[0] * shape[1] * sides != count:
         raise Invalid(f"claim: shape {shape} does not fit the {count} outputs of listing {listing[:60]!r}")
     return Claim(kind, listing, (shape[0], shape[1]))
+
+
+def _theorem(value: Any, listings: Mapping[str, Listing]) -> Claim:
+    table = fields(value, ("kind", "listing", "law", "suppose", "then"), "claim")
+    listing = _one_of(table["listing"], listings, "claim")
+    count = len(listings[listing].outputs)
+    law = None if table["law"] is None else text_field(table["law"], "claim, law")
+    suppose, then = (
+        tuple(_sentence(s, count, f"claim, {part}") for s in typed(table[part], list, f"claim, {part}"))
+        for part in ("suppose", "then")
+    )
+    if not then:
+        raise Invalid("claim: a theorem concludes something")
+    for part in suppose:
+        if part.word not in SUPPOSABLE:
+            raise Invalid(f"claim: {part.word} is not supposed of solutions")
+    return Claim("theorem", listing, (count, 1), law=law, suppose=suppose, then=then)
+
+
+def _sentence(value: Any, count: int, where: str) -> Sentence:
+    table = fields(value, ("word", "of"), where, ("zero", "by", "at"))
+    word = _one_of(table["word"], WORDS, where)
+    of = tuple(natural(k, count, where) for k in typed(table["of"], list, where))
+    by = natural(table["by"], count, where) if "by" in table else None
+    at = {_key(name): rational(x, where) for name, x in typed(table.get("at", {}), dict, where).items()}
+    if (word in ("exists", "stable")) == bool(of) or (word == "stable") != bool(at):
+        raise Invalid(f"{where}: {word} is not said like this")
+    return Sentence(word, of, typed(table.get("zero", False), bool, where), by, tuple(sorted(at.items())))
 
 
 def _tree(value: Any, count: int, used: set[int]) -> int:

@@ -201,7 +201,8 @@ class Replay(Domain[Value]):
         return self.field.rational(a)
 
     def nonzero(self, a: Value) -> None:
-        self.signs.require_value("nonzero", a, "the argument of |.| in a rate")
+        if not self.statement.along:
+            self.signs.require_value("nonzero", a, "the argument of |.| in a rate")
 
     def inv(self, a: Value) -> Value:
         number = self.field.rational(a)

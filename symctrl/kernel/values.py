@@ -64,13 +64,34 @@ class Assumption:
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """`matrix` is the checked tree of positions of the outputs for a definite kind, else None."""
+    """`matrix` is the checked tree of positions of the outputs for a definite kind, else None.
+
+    Of a theorem: the law of the closed loop, what is supposed of solutions, and what then holds for all of
+    them.
+    """
 
     kind: str
     listing: str
     shape: tuple[int, int]
     matrix: Any = None
     small: str | None = None
+    law: str | None = None
+    suppose: tuple[Sentence, ...] = ()
+    then: tuple[Sentence, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """A word about outputs of the claim's listing; zero: the set where they vanish, else where they are >= 0.
+
+    by: the output that is a time, a bound or a rate. at: the numbers of a point, by state.
+    """
+
+    word: str
+    of: tuple[int, ...]
+    zero: bool = False
+    by: int | None = None
+    at: tuple[tuple[str, Fraction], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,6 +124,7 @@ class Statement:
     claim: Claim
     conditions: tuple[Condition, ...]
     uses: tuple[Use, ...] = ()
+    along: bool = False  # rates are those along solutions, where |a| has the rate s a' for any s if a = 0
 
 
 @dataclass(frozen=True, slots=True)

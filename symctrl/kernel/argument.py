@@ -1,0 +1,354 @@
+"""An argument for a theorem: a chain of rules, each with its obligations and what it gives.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Relies on the theorems of the rules (`kernel.rules`), one in each file. What is said is said of every solution
+on its maximal interval: absolutely continuous, and where the field jumps in the sense of Filippov, for every
+admissible signal (measurable, locally bounded). An assumption that speaks of states and not of the whole
+trajectory holds at the beginning only: an equation is used after its rate is shown to be zero, an inequality
+after the rule `keeps`. The field is affine in its switches wherever a rate of |.| is taken: then every value
+of the field is that for one value of each switch, and |a| has the rate s a' for any s where a = 0.
+
+An obligation is composed here from the formula of its rule (`compose`); the certificate has only its proof.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, Protocol
+
+from symctrl.kernel.certificate import Invalid, at_node, split_name
+from symctrl.kernel.closure import Reach
+from symctrl.kernel.compose import composed, rate_listing, rates_of
+from symctrl.kernel.evaluation import Evaluation
+from symctrl.kernel.traits import LIPSCHITZ, NOT_AFFINE, Reading, Traits, reading
+from symctrl.kernel.values import Assumption, Claim, Listing, Statement, Step
+
+OBLIGATION = "obligation"
+Roles = Mapping[str, "str | list[str]"]
+Known = tuple[str, str]  # a word and what it is about: a key, or the keys of a set
+STRICT = frozenset(("nonzero", "positive"))
+
+
+@dataclass(frozen=True)
+class Beside:
+    """What an obligation may use beside or in place of the assumptions that are available.
+
+    extra: assumed too. closed: assumptions that leave out a part of the boundary of the domain must not be
+    used. only: of those available these alone.
+    """
+
+    extra: tuple[Assumption, ...] = ()
+    closed: bool = False
+    only: tuple[Assumption, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Obligation:
+    """A claim for all states, parameters, signals and switches."""
+
+    role: str
+    kind: str
+    formulas: tuple[str, ...]
+    roles: Mapping[str, str]
+    beside: Beside = Beside()
+
+
+class Judge(Protocol):
+    """Who settles obligations: the checker of a certificate, or a search for one."""
+
+    def prove(self, at: Argument, obligation: Obligation) -> None:
+        """Raises Invalid where the obligation is not met."""
+
+    def require(self, role: str, holds: bool, why: str) -> None:
+        """Raises Invalid where something that is read off the graph does not hold."""
+
+
+@dataclass
+class Argument:
+    """The state of an argument: the system with its quantities, and the facts so far.
+
+    available: assumptions that may be used in obligations. initial: those of the beginning only.
+    """
+
+    statement: Statement
+    quantities: tuple[str, ...]
+    judge: Judge
+    facts: set[Known] = field(default_factory=set)
+    available: list[Assumption] = field(default_factory=list)
+    initial: list[tuple[str, Assumption]] = field(default_factory=list)
+    relations: list[tuple[str, Assumption]] = field(default_factory=list)
+    _stamp: tuple[int, int] = (-1, -1)
+    _read: Any = None
+
+    @property
+    def law(self) -> str | None:
+        return self.statement.claim.law
+
+    # Obligations and needs
+
+    def prove(
+        self,
+        role: str,
+        kind: str,
+        formulas: str | Sequence[str],
+        beside: Beside | None = None,
+        /,
+        **roles: str,
+    ) -> None:
+        """An obligation by its formula. kind equal: the first half of the formulas equals the second."""
+        given = (formulas,) if isinstance(formulas, str) else tuple(formulas)
+        self.judge.prove(self, Obligation(role, kind, given, roles, beside or Beside()))
+
+    def require(self, role: str, holds: bool, why: str) -> None:
+        self.judge.require(role, holds, why)
+
+    def need(self, role: str, word: str, quantity: str) -> None:
+        """An earlier fact about the quantity."""
+        self.require(
+            role, self.has(word, quantity), f"that {quantity} {PHRASES[word]} is not known before this line"
+        )
+
+    def need_existence(self) -> None:
+        self.require(
+            "existence",
+            ("exists", "") in self.facts,
+            "that solutions exist for all time is not known before this line",
+        )
+
+    def has(self, word: str, quantity: str) -> bool:
+        if word == "bounded" and self.traits(quantity).bounded:
+            return True
+        return any((word, key) in self.facts for key in self.keys(quantity))
+
+    # What is read off the graph
+
+    def traits(self, listing: str, letter: str = "i") -> Traits:
+        """Of the only output of a listing."""
+        walk, _ = self._reading()
+        binding = {"i": letter, "j": {"i": "j", "j": "i"}[letter]}
+        value: Traits = walk.output((listing, 0), binding, 0, self.law)
+        return value
+
+    def output_traits(self, ref: tuple[str, int]) -> Traits:
+        """Of one output of a listing that may speak of a node and its neighbour."""
+        walk, _ = self._reading()
+        value: Traits = walk.output(ref, {"i": "i", "j": "j"}, 0, self.law)
+        return value
+
+    def keys(self, listing: str) -> list[str]:
+        """Keys under which facts about the listing stand: of a node's that of any node."""
+        letters = ("i", "j") if self.statement.listings[listing].letters == {"i"} else ("i",)
+        return [self.traits(listing, letter).key for letter in letters]
+
+    def field(self) -> dict[str, Traits]:
+        """The traits of every state's rate."""
+        walk, _ = self._reading()
+        return {
+            state: walk.output(ref, {"i": "i"}, 0, self.law) for state, ref in self.statement.motion.items()
+        }
+
+    def edges(self) -> dict[str, Traits]:
+        """What the field and the definitions of its inputs divide by or take roots of, as `kind key`."""
+        walk, domain = self._reading()
+        found: dict[str, Traits] = {}
+        for ref in self.statement.motion.values():
+            value: Traits = walk.output(ref, {"i": "i"}, 0, self.law)
+            for edge in value.edges:
+                found[edge] = domain.of_edge[edge.partition(" ")[2]]
+        return found
+
+    def is_constant(self, quantity: str) -> bool:
+        return all(map(self._is_parameter, self.traits(quantity).reads))
+
+    def require_constant(self, role: str, quantity: str) -> None:
+        self.require(role, self.is_constant(quantity), f"{quantity} is not made of parameters alone")
+
+    def require_differentiable(self, role: str, quantity: str) -> None:
+        """Locally Lipschitz along solutions, with the rate that the chain rule gives almost everywhere."""
+        traits = self.traits(quantity)
+        fits = traits.level <= LIPSCHITZ and not traits.jumps
+        self.require(role, fits, f"{quantity} jumps, or is not locally Lipschitz")
+        if fits and traits.level == LIPSCHITZ:
+            affine = all(rate.degree < NOT_AFFINE for rate in self.field().values())
+            self.require(
+                f"{role}, switches", affine, "it has a kink, and the field is not affine in its switches"
+            )
+
+    def is_signal(self, name: str) -> bool:
+        """Is it a free symbol that moves and has no motion?"""
+        key = _starred(name)
+        return self.statement.scalars.get(key) != "parameter" and key not in self.statement.motion
+
+    def state_is_bounded(self, state: str) -> bool:
+        _, domain = self._reading()
+        return domain.free(at_node(state, "i")).bounded
+
+    def rate_is_bounded(self, quantity: str, order: int = 1) -> bool:
+        return self.traits(rate_listing(quantity, order)).bounded
+
+    def _is_parameter(self, name: str) -> bool:
+        return self.statement.scalars.get(_starred(name)) == "parameter"
+
+    def _reading(self) -> tuple[Evaluation[Traits], Reading]:
+        """The walk with what is known now."""
+        stamp = len(self.facts), len(self.statement.listings)
+        if self._stamp != stamp:
+            domain = Reading(
+                lambda key: ("bounded", key) in self.facts,
+                lambda key: ("apart", key) in self.facts,
+                self._is_parameter,
+            )
+            self._stamp, self._read = stamp, (reading(self.statement, domain), domain)
+        walk, known = self._read
+        return walk, known
+
+    # Facts
+
+    def learn(self, word: str, quantity: str) -> None:
+        for key in self.keys(quantity):
+            self.facts.add((word, key))
+
+    def learn_set(self, word: str, zero: bool, quantities: Sequence[str], by: str | None = None) -> None:
+        self.facts.add((word, self.set_key(zero, [self.traits(q).key for q in quantities])))
+        if by is not None:
+            time = self.traits(by).key
+            self.facts.add((word, self.set_key(zero, [self.traits(q).key for q in quantities], time)))
+
+    @staticmethod
+    def set_key(zero: bool, keys: Sequence[str], by: str = "") -> str:
+        return f"{'=' if zero else '>='} {' '.join(sorted(keys))} {by}"
+
+    def begin(self) -> None:
+        """Sorts the assumptions, and asks that the equations about states are kept."""
+        for k, assumption in enumerate(self.statement.given):
+            keys = [self.output_traits(ref).key for ref in assumption.of]
+            if not self.reads_states(assumption) or assumption.about == "trajectory":
+                self.available.append(assumption)
+                self._learn_apart(assumption, keys)
+            elif assumption.kind == "zero":
+                self.available.append(assumption)
+                self.relations.append((relation(k), assumption))
+            else:
+                self.initial.append((keys[0], assumption))
+        for quantity, assumption in self.relations:
+            self.prove(f"{assumption.text or quantity} is kept", "equal", ["g'", "0"], g=quantity)
+
+    def _learn_apart(self, assumption: Assumption, keys: Sequence[str]) -> None:
+        """A constant that is not zero, and what stays apart from zero along the trajectory by assumption."""
+        if assumption.kind in STRICT:
+            self.facts |= {("apart", key) for key in keys}
+        if assumption.kind == "positive":
+            self.facts |= {("apart", f"positive {key}") for key in keys}
+
+    def reads_states(self, assumption: Assumption) -> bool:
+        reach = Reach(self.statement)
+        for name, _ in assumption.of:
+            reach.listing(name, "i", 0, None)
+        kinds, moving = self.statement.scalars, self.statement.motion
+        return any(kinds.get(key) in ("state", "input") or key in moving for key in reach.read)
+
+    def composed(self, obligation: Obligation, given: Sequence[Assumption]) -> Statement:
+        """The statement of an obligation under some of the assumptions."""
+        listing = composed(self.statement.listings, obligation.formulas, obligation.roles)
+        count = len(listing.outputs) // (2 if obligation.kind == "equal" else 1)
+        claim = self._claim(obligation.kind, count)
+        listings = {**self.statement.listings, OBLIGATION: listing}
+        return replace(
+            self.statement,
+            listings=listings,
+            given=tuple(given),
+            claim=claim,
+            conditions=(),
+            uses=(),
+            along=True,
+        )
+
+    @staticmethod
+    def _claim(kind: str, count: int) -> Claim:
+        if kind not in ("positive_definite", "positive_semidefinite"):
+            return Claim(kind, OBLIGATION, (count, 1))
+        size = round(count**0.5)
+        tree = {"entries": [[r + size * c for c in range(size)] for r in range(size)]}
+        return Claim(kind, OBLIGATION, (size, size), tree)
+
+    def usable(self, obligation: Obligation) -> list[Assumption]:
+        """The assumptions that an obligation may use, in their order."""
+        beside = obligation.beside
+        kept: Sequence[Assumption] = self.available if beside.only is None else beside.only
+        if beside.closed:
+            kept = [a for a in kept if a.kind not in STRICT or not self.reads_states(a)]
+        return [*kept, *beside.extra]
+
+    def mint(self, name: str, formulas: Sequence[str]) -> None:
+        """A listing of the rules' own, of formulas over the states."""
+        _enter(
+            listings := dict(self.statement.listings), {name: composed(self.statement.listings, formulas, {})}
+        )
+        self.statement = replace(self.statement, listings=listings)
+
+    def mint_single(self, name: str, ref: tuple[str, int]) -> str:
+        """A quantity of the rules' own that is one output of a listing."""
+        _enter(
+            listings := dict(self.statement.listings), {name: single(self.statement.listings[ref[0]], ref[1])}
+        )
+        self.statement = replace(self.statement, listings=listings)
+        return name
+
+
+PHRASES = {
+    "bounded": "stays bounded",
+    "summable": "has a finite integral",
+    "tends": "tends to zero",
+    "exponentially": "decays exponentially",
+    "apart": "stays apart from zero",
+}
+
+
+def extended(statement: Statement, quantities: Sequence[str]) -> Statement:
+    """The statement with the listings of quantities' rates, and of each equation that is assumed."""
+    listings: dict[str, Listing] = dict(statement.listings)
+    names = dict(statement.names)
+    own = list(quantities)
+    for k, assumption in enumerate(statement.given):
+        if assumption.kind == "zero":
+            listing, at = assumption.of[0]
+            own.append(relation(k))
+            _enter(listings, {relation(k): single(statement.listings[listing], at)})
+    for quantity in own:
+        more, meanings = rates_of(quantity, listings[quantity], statement.claim.law)
+        _enter(listings, more)
+        _enter(names, meanings, statement.scalars)
+    return replace(statement, listings=listings, names=names)
+
+
+def relation(k: int) -> str:
+    """The quantity of the equation that is assumption k."""
+    return f"relation{k + 1}"
+
+
+def _enter(table: dict[str, Any], new: Mapping[str, Any], beside: Mapping[str, Any] | None = None) -> None:
+    for key in new:
+        if key in table or key in (beside or {}):
+            raise Invalid(f"the name {key[:60]} belongs to the rules")
+    table.update(new)
+
+
+def single(listing: Listing, k: int) -> Listing:
+    """One output of a listing, with the instructions that it needs."""
+    needed = {listing.outputs[k]}
+    for r in range(len(listing.code) - 1, -1, -1):
+        if r in needed:
+            needed.update(listing.code[r].args)
+    new = {old: n for n, old in enumerate(sorted(needed))}
+    code = tuple(
+        Step(s.op, tuple(new[a] for a in s.args), s.name, s.value)
+        for r, s in enumerate(listing.code)
+        if r in needed
+    )
+    return Listing(code, (new[listing.outputs[k]],), "")
+
+
+def _starred(name: str) -> str:
+    return split_name(name)[0]

@@ -1,0 +1,54 @@
+"""Every solution exists for all time.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem. If on its maximal interval every state of a solution is bounded, or has a bounded rate, and
+everything that the field divides by or takes a root or logarithm of stays apart from the edge of its domain,
+the solution exists for all time.
+
+Proof. On a finite maximal interval the states then stay in a compact set on which the field is bounded, so
+that they have a limit there, and the solution goes on from it. An expression that is not zero on the whole
+closed domain stays apart from zero on a compact part of it.
+
+Sources: Khalil, Nonlinear Systems (continuation of solutions); Filippov, Differential Equations with
+Discontinuous Righthand Sides, 1988, section 7.
+"""
+
+from __future__ import annotations
+
+from symctrl.kernel.argument import Argument, Beside
+from symctrl.kernel.rules.roles import Roles
+
+PROVED_AS = {
+    "nonzero": ("positive", "q q *"),
+    "positive": ("positive", "q"),
+    "nonnegative": ("nonnegative", "q"),
+}
+
+
+def exists(at: Argument, of: Roles) -> None:
+    """Roles: edges, the arguments whose sign is shown for all states of the closed domain."""
+    shown = {at.traits(quantity).key: quantity for quantity in of.many("edges")}
+    for state, rate in at.field().items():
+        bounded = at.state_is_bounded(state) or rate.bounded
+        at.require(f"{state} stays finite", bounded, f"neither {state} nor its rate is known to be bounded")
+    for edge, traits in at.edges().items():
+        kind, _, key = edge.partition(" ")
+        if _is_known(at, kind, key):
+            continue
+        quantity = shown.pop(key, None)
+        at.require(
+            f"an edge of the field is named: {kind}",
+            quantity is not None,
+            f"what must be {kind} for the field to be defined is not shown to stay so, nor assumed ({', '.join(sorted(traits.reads))})",
+        )
+        if quantity is not None:
+            proved, formula = PROVED_AS[kind]
+            at.prove(f"{quantity} is {kind}", proved, formula, Beside(closed=True), q=quantity)
+    at.require("no edge is named in vain", not shown, "a quantity is named that the field does not divide by")
+    at.facts.add(("exists", ""))
+
+
+def _is_known(at: Argument, kind: str, key: str) -> bool:
+    words = {"nonzero": ("", "positive "), "positive": ("positive ",), "nonnegative": ("positive ",)}
+    return any(("apart", f"{sign}{key}") in at.facts for sign in words[kind])

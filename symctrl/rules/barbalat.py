@@ -1,0 +1,59 @@
+"""Barbalat's lemma: a summable bound of a power is looked for among what is summable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from symctrl.rules import carries
+from symctrl.rules.chain import Chain
+
+What = Mapping[str, Any]
+
+
+def barbalat(chain: Chain, what: What) -> bool:
+    carries.existence(chain)
+    e = what["e"]
+    parts = [e] if e.shape == (1, 1) else list(e)
+    return all([_one(chain, chain.q(part), what) for part in parts])
+
+
+def _one(chain: Chain, e: str, what: What) -> bool:
+    if chain.at.has("tends", e):
+        return True
+    tables = list(_tables(chain, e, what))
+    for table in tables:
+        if chain.attempt("barbalat", table):
+            return True
+    if not tables:
+        return chain.fail("W is summable", "nothing is known to be summable before this line")
+    return chain.run("barbalat", tables[0])
+
+
+def _tables(chain: Chain, e: str, what: What) -> Iterator[dict[str, Any]]:
+    given = [chain.q(what["of"])] if what["of"] is not None else []
+    reads = chain.at.traits(e).reads
+    summable = given or [W for W in chain.having("summable") if chain.at.traits(W).reads & reads]
+    rate = {"rate": chain.q(what["rate"])} if what["rate"] is not None else {}
+    power = what["power"]
+    for W in summable:
+        own = [chain.q(what["least"])] if what["least"] is not None else [None, *carries.squares_in(chain, W, e)]
+        for words in ([_power(chain, power)] if power is not None else [{"power": "2"}, {"power": "1"}]):
+            for least in own:
+                yield {"e": e, "W": W} | words | rate | ({"least": least} if least else {})
+
+
+def _power(chain: Chain, power: Any) -> dict[str, str]:
+    return {"power": str(power)} if power in (1, 2) else {"power": "p", "p": chain.q(power)}
+
+
+def barbalat_rate(chain: Chain, what: What) -> bool:
+    e = what["e"]
+    parts = [e] if e.shape == (1, 1) else list(e)
+    met = []
+    for part in parts:
+        name = chain.q(part)
+        carries.ensure(chain, "tends", name)
+        met.append(chain.run("barbalat_rate", {"e": name}))
+        chain.q(chain.loop.rate(part))  # so that the lines below can speak of it
+    return all(met)

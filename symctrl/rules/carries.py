@@ -1,0 +1,364 @@
+"""Carrying facts over: the ways of the rule `carries`, tried in turn with constants that are guessed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from symctrl.expr import Expr, lift
+from symctrl.facts import SETS, Fact
+from symctrl.graph import Instruction, Tape
+from symctrl.kernel.values import Sentence
+from symctrl.rules.algebra import Algebra, algebra
+from symctrl.rules.chain import Chain
+from symctrl.rules.combination import combinations
+from symctrl.rules.loop import tape_of
+
+What = Mapping[str, Any]
+
+
+def carries(chain: Chain, what: What) -> bool:
+    """The author's line: a fact about a column, with what he says of the way."""
+    fact: Fact = what["fact"]
+    if fact.word == "exists":
+        return existence(chain) or chain.run("exists", {"edges": []})
+    assert fact.of is not None
+    parts = [fact.of] if fact.of.shape == (1, 1) else list(fact.of)
+    if fact.word in SETS:
+        return sets(chain, fact, parts)
+    names = chain.qs(parts)
+    hints = {k: v for k, v in what.items() if k != "fact" and v not in (None, ())}
+    if hints:
+        return all([_hinted(chain, fact.word, name, hints) for name in names])
+    for name in names:
+        ensure(chain, fact.word, name)
+    if fact.word == "tends":
+        combinations(chain, [n for n in names if not chain.at.has("tends", n)])
+    missing = [name for name in names if not chain.at.has(fact.word, name)]
+    for name in missing:
+        _as_the_author_would_see_it(chain, fact.word, name)
+    return not missing
+
+
+def _as_the_author_would_see_it(chain: Chain, word: str, name: str) -> None:
+    shown = chain.loop.quantities.get(name)
+    from symctrl.text import text
+
+    of = text(shown) if shown is not None else name
+    chain.fail(word, f"no way was found from the facts so far to {word} of {of}")
+
+
+def _hinted(chain: Chain, word: str, name: str, hints: Mapping[str, Any]) -> bool:
+    by = chain.qs(hints.get("by", ()))
+    more = {k: chain.q(hints[k]) for k in ("least", "offset", "divisor") if k in hints}
+    for one in by:
+        ensure(chain, word, one)
+    if word == "tends" and "times" in hints:
+        return chain.run(
+            "carries",
+            {"word": word, "how": "combination", "e": name, "of": by, "times": chain.qs(hints["times"])} | more,
+        )
+    if word == "bounded" and "rate" in hints:
+        return chain.run("carries", {"word": word, "how": "rate", "e": name, "by": chain.q(hints["rate"])})
+    if word == "exponentially":
+        return all([_exponentially(chain, name, V, more) for V in by])
+    how, of = {
+        "bounded": ("square", by),
+        "tends": ("square", by[0] if by else ""),
+        "summable": ("parts", by),
+        "apart": ("square", None),
+    }[word]
+    table = {"word": word, "how": how, "e": name} | more | ({"by": of} if of is not None else {})
+    if "least" in more or not chain.attempt("carries", table):
+        return chain.run("carries", table)
+    return True
+
+
+def ensure(chain: Chain, word: str, name: str) -> bool:
+    """Is the fact known, or can it be carried over without being asked?"""
+    if chain.at.has(word, name):
+        return True
+    ways = {"bounded": bounded, "tends": tends, "summable": summable, "exponentially": exponentially}
+    way = ways.get(word)
+    return way is not None and way(chain, name)
+
+
+def bounded(chain: Chain, name: str) -> bool:
+    if chain.attempt("carries", {"word": "bounded", "how": "composed", "e": name}):
+        return True
+    for V in [V for V in chain.having("bounded") if _shares(chain, V, name)]:
+        for least in (None, *squares_in(chain, V, name)):
+            table: dict[str, Any] = {"word": "bounded", "how": "square", "e": name, "by": [V]}
+            if chain.attempt("carries", table | ({"least": least} if least else {})):
+                return True
+    for offset in offsets(chain, name):
+        if chain.attempt("carries", {"word": "bounded", "how": "square", "e": name, "by": [], "offset": offset}):
+            return True
+    return False
+
+
+def tends(chain: Chain, name: str) -> bool:
+    if ("exists", "") not in chain.at.facts:
+        return False
+    decaying = chain.having("tends") + chain.having("exponentially")
+    for V in [V for V in dict.fromkeys(decaying) if _shares(chain, V, name)]:
+        for least in (None, *squares_in(chain, V, name)):
+            table: dict[str, Any] = {"word": "tends", "how": "square", "e": name, "by": V}
+            if chain.attempt("carries", table | ({"least": least} if least else {})):
+                return True
+    combinations(chain, [name])
+    return chain.at.has("tends", name)
+
+
+def summable(chain: Chain, name: str) -> bool:
+    for W in [W for W in chain.having("summable") if _shares(chain, W, name)]:
+        for least in (None, *factors(chain)):
+            table: dict[str, Any] = {"word": "summable", "how": "parts", "e": name, "by": [W]}
+            if chain.attempt("carries", table | ({"least": least} if least else {})):
+                return True
+    return False
+
+
+def exponentially(chain: Chain, name: str) -> bool:
+    return any(_exponentially(chain, name, V, {}) for V in chain.having("exponentially") if V != name)
+
+
+def _exponentially(chain: Chain, name: str, V: str, more: Mapping[str, str]) -> bool:
+    for rate in rates_of(chain, V):
+        half = half_of(chain, rate)
+        for least in [more.get("least")] if "least" in more else [None, *squares_in(chain, V, name)]:
+            table = {"word": "exponentially", "how": "square", "e": name, "by": V, "rate": rate, "half": half}
+            if chain.attempt("carries", table | ({"least": least} if least else {})):
+                return True
+    return False
+
+
+def rates_of(chain: Chain, V: str) -> list[str]:
+    """The constants that are known as rates of V's decay."""
+    key = chain.at.traits(V).key
+    return [
+        name
+        for name in chain.loop.quantities
+        if ("exponentially", f"{key} {chain.at.traits(name).key}") in chain.at.facts
+    ]
+
+
+def half_of(chain: Chain, rate: str) -> str:
+    """Half of a constant: its own half where it is written as a double, or as the author writes one."""
+    wanted = [s for s in chain.loop.statement.claim.then if s.word == "exponentially" and s.by is not None]
+    for sentence in wanted:
+        assert sentence.by is not None
+        asked = claim_quantity(chain, sentence.by)
+        if algebra(chain, [asked, rate], _is_half):
+            return asked
+    shown = chain.loop.quantities[rate]
+    return chain.q(shown / 2 if shown is not None else lift(0))
+
+
+def _is_half(found: Algebra) -> bool:
+    domain = found.session.domain
+    return domain.is_zero(domain.sub_(domain.add_(found.values[0], found.values[0]), found.values[1]))
+
+
+def claim_quantity(chain: Chain, k: int) -> str:
+    """Output k of the theorem's claim as a quantity."""
+    from symctrl.kernel.argument import single
+
+    return chain.q(tape_of(single(chain.loop.statement.listings["claim"], k)))
+
+
+def sets(chain: Chain, fact: Fact, parts: Sequence[Expr]) -> bool:
+    """A set that contains one for which the same word is known."""
+    names = chain.qs(list(parts))
+    time = None if fact.by is None else chain.q(fact.by)
+    return set_of(chain, fact.word, fact.zero, names, time)
+
+
+def set_of(chain: Chain, word: str, zero: bool, names: Sequence[str], time: str | None) -> bool:
+    at = chain.at
+    key = at.set_key(zero, [at.traits(n).key for n in names], "" if time is None else at.traits(time).key)
+    if (word, key) in at.facts:
+        return True
+    for inner_zero in (True, False):
+        for inner in chain.loop.quantities:
+            table = {
+                "word": word,
+                "how": "set",
+                "e": list(names),
+                "of_zeros": "yes" if zero else "no",
+                "by": [inner],
+                "by_zeros": "yes" if inner_zero else "no",
+            } | ({} if time is None else {"time": time})
+            known = at.set_key(inner_zero, [at.traits(inner).key], "" if time is None else at.traits(time).key)
+            if (word, known) in at.facts and chain.attempt("carries", table):
+                return True
+    if word == "stays" and not zero and all(chain.attempt("keeps", {"g": name}) for name in names):
+        return len(names) == 1
+    return chain.fail(word, f"no smaller set is known of which {word} is said")
+
+
+def conclude(chain: Chain, sentence: Sentence) -> bool:
+    """Try to carry the facts so far over to a conclusion of the theorem."""
+    if sentence.word == "exists":
+        return existence(chain)
+    names = [claim_quantity(chain, k) for k in sentence.of]
+    if sentence.word in SETS:
+        before = list(chain.outcomes)
+        time = None if sentence.by is None else claim_quantity(chain, sentence.by)
+        met = set_of(chain, sentence.word, sentence.zero, names, time)
+        chain.outcomes = before if not met else chain.outcomes
+        return met
+    for name in names:
+        ensure(chain, sentence.word, name)
+    if sentence.word == "tends":
+        combinations(chain, [n for n in names if not chain.at.has("tends", n)])
+    return bool(names) and all(chain.at.has(sentence.word, name) for name in names)
+
+
+def existence(chain: Chain) -> bool:
+    """That solutions exist, where the states are bounded without more ado."""
+    if ("exists", "") in chain.at.facts:
+        return True
+    from symctrl.rules.lines import edges
+
+    bounded_states(chain)
+    return chain.attempt("exists", {"edges": edges(chain)})
+
+
+def bounded_states(chain: Chain) -> None:
+    """Carry boundedness over to every state for which that succeeds."""
+    names = {state: chain.q(_bare(state)) for state in chain.at.statement.motion}
+    open_ = [state for state in names if not chain.at.state_is_bounded(state)]
+    for state in open_:
+        if not bounded(chain, names[state]):
+            continue
+    left = [names[state] for state in names if not chain.at.state_is_bounded(state)]
+    if left:
+        forms(chain, left)
+        for name in left:
+            bounded(chain, name)
+
+
+def forms(chain: Chain, names: Sequence[str]) -> None:
+    """e'P e <= k + V for the quadratic part of a bounded V in the symbols of each column, and in all of them."""
+    columns: dict[str, list[str]] = {}
+    for name in names:
+        (read,) = chain.at.traits(name).reads or ("",)
+        columns.setdefault(read.partition("[")[0], []).append(name)
+    for V in chain.having("bounded"):
+        for column in (*columns.values(), list(names)):
+            if len(column) > 1 or column == list(names):
+                _form(chain, V, [n for n in column if not chain.at.has("bounded", n)])
+
+
+def _form(chain: Chain, V: str, column: Sequence[str]) -> bool:
+    if not column:
+        return False
+    entries = algebra(chain, [V, *column], _hessian)
+    if not entries:
+        return False
+    table = {"word": "bounded", "how": "form", "e": list(column), "P": [chain.q(t) for t in entries], "by": [V]}
+    return chain.attempt("carries", table)
+
+
+def _hessian(found: Algebra) -> list[Tape] | None:
+    """Half the second derivatives of the first value by the others, column by column; None where not constant."""
+    V, *column = found.values
+    at = [_symbol(found, value) for value in column]
+    if None in at:
+        return None
+    tapes = []
+    for a in at:
+        for b in at:
+            assert a is not None and b is not None
+            powers = {a: 2} if a == b else {a: 1, b: 1}
+            others = {g: 0 for g in at if g is not None and g not in powers}
+            entry = found.coefficient(V, powers | others)
+            entry = entry if a == b else found.session.domain.scaled(entry, Fraction(1, 2))
+            if not found.is_constant(entry):
+                return None
+            tape = found.tape(entry)
+            if tape is None:
+                return None
+            tapes.append(tape)
+    return tapes
+
+
+def squares_in(chain: Chain, V: str, name: str) -> list[str]:
+    """Constants a for which a e^2 may be below V: the coefficient of e^2 in it, a half, the gains."""
+    tape = algebra(chain, [V, name], _square_coefficient)
+    own = [chain.q(tape)] if tape is not None else []
+    return list(dict.fromkeys([*own, chain.q("1/2"), *factors(chain)]))
+
+
+def _square_coefficient(found: Algebra) -> Tape | None:
+    V, e = found.values
+    at = _symbol(found, e)
+    if at is None:
+        return None
+    coefficient = found.coefficient(V, {at: 2})
+    return found.tape(coefficient) if coefficient and found.is_constant(coefficient) else None
+
+
+def _symbol(found: Algebra, value: Any) -> int | None:
+    """The generator that a value is."""
+    field = found.session.domain.field
+    if set(value) != {()} or len(value[()]) != 1:
+        return None
+    occurring = field.occurring(value[()])
+    if len(occurring) != 1:
+        return None
+    (g,) = occurring
+    return g if value[()] == field.variable(g) else None
+
+
+def factors(chain: Chain) -> list[str]:
+    """The parameters that are assumed positive, and their halves, as constants to try."""
+    found = []
+    for assumption in chain.at.available:
+        listing = chain.at.statement.listings[assumption.of[0][0]]
+        step = listing.code[listing.outputs[assumption.of[0][1]]]
+        if assumption.kind == "positive" and step.op == "INPUT":
+            if chain.at.statement.scalars.get(step.name) == "parameter":
+                found.append(chain.q(Tape((Instruction("INPUT", name=step.name),), (0,))))
+    return found
+
+
+def offsets(chain: Chain, name: str) -> Iterator[str]:
+    """Constants that may bound the square: 1, and products of the two bounds of a symbol that are assumed."""
+    yield chain.q("1")
+    bounds = [a for a in chain.at.available if a.kind in ("nonnegative", "positive") and len(a.of) == 1]
+    from symctrl.kernel.argument import single
+
+    tapes = [tape_of(single(chain.at.statement.listings[a.of[0][0]], a.of[0][1])) for a in bounds]
+    reads = chain.at.traits(name).reads
+    tapes = [t for t in tapes if reads & set(t.inputs)]
+    if not tapes or len(tapes) > 12:
+        return
+    quantities = [chain.q(t) for t in tapes]
+    for tape in algebra(chain, [name, *quantities], _squared_bounds) or []:
+        yield chain.q(tape)
+
+
+def _squared_bounds(found: Algebra) -> list[Tape]:
+    """(bound + e)(e - bound) + e^2 for pairs of bounds p - e >= 0 and p + e >= 0: p^2 where it is constant."""
+    domain = found.session.domain
+    e, *bounds = found.values
+    tapes = []
+    for a in bounds:
+        for b in bounds:
+            value = domain.simplified(domain.add_(domain.mul_(a, b), domain.mul_(e, e)))
+            if value and found.is_constant(value):
+                tape = found.tape(value)
+                if tape is not None:
+                    tapes.append(tape)
+    return tapes
+
+
+def _shares(chain: Chain, V: str, name: str) -> bool:
+    return V != name and bool(chain.at.traits(V).reads & chain.at.traits(name).reads)
+
+
+def _bare(state: str) -> Tape:
+    return Tape((Instruction("INPUT", name=state.replace(".*", ".i")),), (0,))

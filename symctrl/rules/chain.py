@@ -1,0 +1,191 @@
+"""Deciding an argument line by line: each line becomes lines of the kernel, with the proofs that were found."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from symctrl.certify import certificate
+from symctrl.expr import Expr, lift
+from symctrl.graph import Tape
+from symctrl.kernel.argument import Argument
+from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.check import check_text
+from symctrl.kernel.rules.roles import Roles
+from symctrl.kernel.theorem import RULES, concluded, suppose
+from symctrl.kernel.values import Condition, Sentence
+from symctrl.rules.loop import Loop
+from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.theorem import Line
+
+if TYPE_CHECKING:
+    from symctrl.theorem import Run
+
+Table = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Done:
+    """One line of the author's, decided: the kernel's lines that it took, and what was not met."""
+
+    line: Line
+    outcomes: tuple[Outcome, ...]
+    blocked: bool = False
+
+    @property
+    def met(self) -> bool:
+        return not self.blocked and all(outcome.met for outcome in self.outcomes)
+
+    @property
+    def reason(self) -> str:
+        if self.blocked:
+            return "a line above it is broken"
+        return next((f"{o.role}: {o.reason}" for o in self.outcomes if not o.met), "")
+
+
+@dataclass
+class Chain:
+    """The state of an argument on its way: the loop, the facts, and the kernel's lines so far."""
+
+    loop: Loop
+    seeker: Seeker
+    at: Argument = field(init=False)
+    steps: list[Table] = field(default_factory=list)
+    relations: Table = field(default_factory=dict)
+    conditions: set[Condition] = field(default_factory=set)
+    outcomes: list[Outcome] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.at = Argument(self.loop.statement, (), self.seeker)
+        suppose(self.at)
+        self.at.begin()
+        self.relations = self._proofs()
+        self.outcomes = self.seeker.outcomes
+
+    # Quantities
+
+    def q(self, what: Expr | Tape | int | str) -> str:
+        """The quantity of a scalar expression or tape."""
+        name = self.loop.quantity(what if isinstance(what, Tape) else lift(what))
+        self.at.statement = self.loop.statement
+        self.at.quantities = tuple(self.loop.quantities)
+        return name
+
+    def qs(self, what: Sequence[Expr]) -> list[str]:
+        return [self.q(one) for one in what]
+
+    def having(self, word: str) -> list[str]:
+        """The quantities with a fact, in the order in which they came."""
+        return [name for name in self.loop.quantities if any((word, key) in self.at.facts for key in self.at.keys(name))]
+
+    # Lines of the kernel
+
+    def run(self, rule: str, table: Mapping[str, Any]) -> bool:
+        """Try a line with all its obligations, refuting where it can; its facts count if all are met."""
+        met = self._tried(rule, table, thorough=True)
+        self.outcomes += self.seeker.outcomes
+        return met
+
+    def attempt(self, rule: str, table: Mapping[str, Any]) -> bool:
+        """Try a line; one that fails leaves no trace."""
+        met = self._tried(rule, table, thorough=False)
+        if met:
+            self.outcomes += self.seeker.outcomes
+        return met
+
+    def fail(self, role: str, reason: str) -> bool:
+        self.outcomes.append(Outcome(role, False, reason))
+        return False
+
+    def _tried(self, rule: str, table: Mapping[str, Any], thorough: bool) -> bool:
+        before = set(self.at.facts), list(self.at.available), list(self.at.initial)
+        statement = self.at.statement
+        self.seeker.outcomes, self.seeker.thorough = [], thorough
+        roles = Roles(dict(table), self.at.quantities, rule)
+        try:
+            RULES[rule](self.at, roles)
+            roles.close()
+        except (Invalid, Declined) as error:
+            self.seeker.outcomes.append(Outcome(rule, False, str(error)))
+        if all(outcome.met for outcome in self.seeker.outcomes):
+            self.steps.append({"rule": rule, "of": dict(table), "proofs": self._proofs()})
+            return True
+        self.at.facts, self.at.available, self.at.initial = before
+        self.at.statement = statement
+        return False
+
+    def _proofs(self) -> Table:
+        proofs: Table = {}
+        for outcome in self.seeker.outcomes:
+            if outcome.proof is not None:
+                proofs[outcome.role] = {"given": list(outcome.given), "proof": outcome.proof}
+                self.conditions |= set(outcome.conditions)
+        return proofs
+
+    # The whole
+
+    def decided(self, lines: Sequence[Line], planners: Mapping[str, Callable[[Chain, Mapping[str, Any]], bool]]) -> Iterator[Done]:
+        """The author's lines in turn; below a broken one those that fail for want of a fact are blocked."""
+        broken = any(not o.met for o in self.outcomes)
+        for line in lines:
+            self.outcomes = []
+            try:
+                met = planners[line.rule](self, line.what)
+            except (Invalid, Declined) as error:
+                met = self.fail(line.rule, str(error))
+            done = Done(line, tuple(self.outcomes))
+            if not met and broken and not any(o.witness for o in self.outcomes if not o.met):
+                done = Done(line, tuple(self.outcomes), blocked=True)
+            broken = broken or not met
+            yield done
+
+    def open_conclusions(self) -> list[Sentence]:
+        """The conclusions that no line has given yet."""
+        claim = self.loop.statement.claim
+        return [s for s in (Sentence("exists", ()), *claim.then) if not concluded(self.at, s)]
+
+    def certificate(self) -> Table:
+        """The certificate of the whole argument, with the lines and quantities that it needs."""
+        used = list(dict.fromkeys(name for step in self.steps for name in _named(step["of"], self.at.quantities)))
+        proof = {
+            "kind": "argument",
+            **self.loop.added(used),
+            "quantities": used,
+            "relations": self.relations,
+            "lines": self.steps,
+        }
+        conditions = sorted(self.conditions, key=lambda c: (c.kind, c.of))
+        stated = self.loop.problem.statement([{"kind": c.kind, "of": c.of} for c in conditions])
+        return certificate(json.loads(json.dumps(stated)), json.loads(json.dumps(proof)))
+
+
+def accepted(made: Mapping[str, Any]) -> str | None:
+    """None where the kernel accepts the certificate, else what it says."""
+    answer = check_text(json.dumps(made))
+    return None if answer.status == "valid" else f"{answer.status}: {answer.reason}"
+
+
+def recorded(write: Callable[[Run], Any]) -> list[Line]:
+    """The lines that the author's function writes."""
+    from symctrl.theorem import Run
+
+    run = Run()
+    write(run)
+    return run.lines
+
+
+def _named(of: Any, known: Sequence[str]) -> Iterator[str]:
+    """The quantities that a line's table names."""
+    if isinstance(of, str):
+        if of in known:
+            yield of
+    elif isinstance(of, Mapping):
+        for key, value in of.items():
+            if key in known:
+                yield key
+            yield from _named(value, known)
+    elif isinstance(of, list | tuple):
+        for value in of:
+            yield from _named(value, known)

@@ -1,0 +1,140 @@
+"""The lines of an argument whose constants the author gives: falls, decays, outside, keeps, exists, lyapunov."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from symctrl.graph import Instruction, Tape
+from symctrl.rules import carries
+from symctrl.rules.chain import Chain
+
+What = Mapping[str, Any]
+
+
+def falls(chain: Chain, what: What) -> bool:
+    V, parts, inputs = chain.q(what["V"]), chain.qs(what["by"]), chain.qs(what["plus"])
+    for w in inputs:
+        carries.ensure(chain, "summable", w)
+    table: dict[str, Any] = {"V": V, "by": parts, "plus": inputs}
+    if what["above"] is not None:
+        table["above"] = chain.q(what["above"])
+    return chain.run("falls", table)
+
+
+def decays(chain: Chain, what: What) -> bool:
+    named = {k: chain.q(x) for k, x in what.items() if x is not None}
+    if "input" in named:
+        for word in ("tends", "summable", "bounded"):
+            carries.ensure(chain, word, named["input"])
+    if "radius" in named:
+        named["set"] = chain.q(what["radius"] - what["V"])
+    if what["b"] is not None or what["radius"] is not None or what["input"] is not None:
+        _existence_by(chain, dict(named))
+    return chain.run("decays", named)
+
+
+def _existence_by(chain: Chain, named: dict[str, str]) -> None:
+    """Facts about large times need existence, which may follow from what the line says of bounds first."""
+    if ("exists", "") in chain.at.facts:
+        return
+    first = {k: v for k, v in named.items() if k != "time"}
+    if chain.attempt("decays", first):
+        carries.existence(chain)
+
+
+def outside(chain: Chain, what: What) -> bool:
+    named = {k: chain.q(what[k]) for k in ("V", "radius", "rate")}
+    named |= {"set": chain.q(what["radius"] - what["V"]), "beyond": chain.q(what["V"] - what["radius"])}
+    if what["time"] is not None:
+        named["time"] = chain.q(what["time"])
+    if ("exists", "") not in chain.at.facts and chain.attempt("outside", named):
+        carries.existence(chain)
+    return chain.run("outside", named)
+
+
+def keeps(chain: Chain, what: What) -> bool:
+    table = {} if what["a"] is None else {"a": chain.q(what["a"])}
+    return all([chain.run("keeps", {"g": g} | table) for g in chain.qs(what["g"])])
+
+
+def exists(chain: Chain, what: What) -> bool:
+    carries.bounded_states(chain)
+    return chain.run("exists", {"edges": edges(chain)})
+
+
+def edges(chain: Chain) -> list[str]:
+    """Quantities for what the field divides by or takes roots of, where that is not known to stay apart."""
+    from symctrl.kernel.rules.exists import _is_known
+
+    wanted = {
+        key
+        for edge in chain.at.edges()
+        for kind, _, key in [edge.partition(" ")]
+        if not _is_known(chain.at, kind, key)
+    }
+    found: list[str] = []
+    for tape in arguments(chain):
+        if not wanted:
+            break
+        name = chain.q(tape)
+        key = chain.at.traits(name).key
+        if key in wanted:
+            wanted.discard(key)
+            found.append(name)
+    return found
+
+
+def arguments(chain: Chain) -> list[Tape]:
+    """The arguments of divisions, roots and logarithms in the tables of the loop, as tapes of one output."""
+    found = []
+    for tape in list(chain.loop.collector.listings.values()):
+        for step in tape.code:
+            if step.op in ("DIV", "INV"):
+                found.append(single(tape, step.args[-1]))
+            elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
+                found.append(single(tape, step.args[0]))
+    return found
+
+
+def single(tape: Tape, register: int) -> Tape:
+    """One register of a tape, with the instructions that it needs."""
+    needed = {register}
+    for r in range(register, -1, -1):
+        if r in needed:
+            needed.update(tape.code[r].args)
+    new = {old: n for n, old in enumerate(sorted(needed))}
+    code = tuple(
+        Instruction(s.op, tuple(new[a] for a in s.args), s.name, s.value)
+        for r, s in enumerate(tape.code)
+        if r in needed
+    )
+    return Tape(code, (new[register],))
+
+
+def lyapunov(chain: Chain, what: What) -> bool:
+    from symctrl.expr import Expr, lift
+    from symctrl.rules.loop import scalars_at
+
+    at = scalars_at(chain.loop.study, what["at"], "lyapunov")
+    table: dict[str, Any] = {"V": chain.q(what["V"]), "at": {name: str(value) for name, value in at.items()}}
+    if what["least"] is not None:
+        table["least"] = chain.q(what["least"])
+    if what["radius"] is not None:
+        distance: Expr = lift(0)
+        for name, numbers in what["at"].items():
+            for entry, value in zip(_entries(chain, name), numbers, strict=True):
+                distance = distance + (entry - value) ** 2
+        table |= {"radius": chain.q(what["radius"]), "inside": chain.q(what["radius"] - distance)}
+    if chain.attempt("lyapunov", table):
+        return True
+    if what["least"] is None:
+        for least in carries.factors(chain):
+            if chain.attempt("lyapunov", table | {"least": least}):
+                return True
+    return chain.run("lyapunov", table)
+
+
+def _entries(chain: Chain, name: str) -> list[Any]:
+    expr = chain.loop.study.symbols[name].expr
+    return [expr] if expr.shape == (1, 1) else list(expr)

@@ -1,0 +1,137 @@
+"""Looking for the proofs of obligations, which the kernel then accepts or not, one by one."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from symctrl.decide.decision import DECIDERS, PROVERS
+from symctrl.decide.solve import NoPoint
+from symctrl.decide.witness import Witness
+from symctrl.domains.domain import Unsupported
+from symctrl.domains.opaque import NowhereDefined
+from symctrl.domains.tangent import NotDifferentiable
+from symctrl.evaluate import NoRate
+from symctrl.graph import Tape
+from symctrl.kernel import values as kernel
+from symctrl.kernel.argument import OBLIGATION, Argument, Obligation
+from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.theorem import proved
+from symctrl.kernel.values import Condition
+from symctrl.problem import Claim, Meaning, Problem
+from symctrl.reach import pruned
+from symctrl.rules.loop import assumption_of, tape_of
+
+NO_MEANING = (Unsupported, NowhereDefined, NotDifferentiable, NoRate, NoPoint)
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of one obligation. problem: of a pointwise one. proof: with the numbers of assumptions used."""
+
+    role: str
+    met: bool
+    reason: str
+    problem: Problem | None = None
+    given: tuple[int, ...] = ()
+    proof: Any = None
+    conditions: tuple[Condition, ...] = ()
+    witness: Witness | None = None
+
+
+class Seeker:
+    """The judge of an argument that is being looked for: it notes every outcome and goes on.
+
+    thorough: an obligation without a proof is also tried to be refuted.
+    """
+
+    def __init__(self, id_: str, thorough: bool = True) -> None:
+        self.id = id_
+        self.thorough = thorough
+        self.outcomes: list[Outcome] = []
+        self.tapes: dict[int, tuple[kernel.Listing, Tape]] = {}
+        self.meanings: dict[int, tuple[kernel.Meaning, Meaning]] = {}
+        self.known: dict[str, Outcome] = {}
+
+    def prove(self, at: Argument, obligation: Obligation) -> None:
+        usable = at.usable(obligation)
+        problem = self.problem(at.composed(obligation, usable), usable)
+        key = problem.sha256
+        if key not in self.known or (self.thorough and not self.known[key].met and not self.known[key].witness):
+            self.known[key] = self._outcome(at, obligation, usable, problem)
+        self.outcomes.append(replace(self.known[key], role=obligation.role))
+
+    def require(self, role: str, holds: bool, why: str) -> None:
+        if not holds:
+            self.outcomes.append(Outcome(role, False, why))
+
+    def problem(self, statement: kernel.Statement, usable: Sequence[kernel.Assumption]) -> Problem:
+        """The composed statement as a problem, with what it reads."""
+        claim = statement.claim
+        made = Claim(claim.kind, OBLIGATION, claim.shape, claim.matrix)
+        whole = Problem(
+            statement.study,
+            self.id,
+            "",
+            {name: self._tape(listing) for name, listing in statement.listings.items()},
+            made,
+            statement.scalars,
+            {name: self._meaning(meaning) for name, meaning in statement.names.items()},
+            statement.motion,
+            statement.laws,
+            tuple(assumption_of(a) for a in usable),
+        )
+        return pruned(whole)
+
+    def _tape(self, listing: kernel.Listing) -> Tape:
+        if id(listing) not in self.tapes:
+            self.tapes[id(listing)] = listing, tape_of(listing)
+        return self.tapes[id(listing)][1]
+
+    def _meaning(self, meaning: kernel.Meaning) -> Meaning:
+        if id(meaning) not in self.meanings:
+            constant = meaning.kind == "constant"
+            made = Meaning(
+                meaning.kind,
+                None if constant else meaning.of,
+                meaning.law,
+                str(meaning.value) if constant else None,
+            )
+            self.meanings[id(meaning)] = meaning, made
+        return self.meanings[id(meaning)][1]
+
+    def _outcome(
+        self, at: Argument, obligation: Obligation, usable: Sequence[kernel.Assumption], problem: Problem
+    ) -> Outcome:
+        own = [assumption_of(a) for a in usable]
+        numbers = tuple(own.index(a) for a in problem.given)
+        try:
+            proof = PROVERS[problem.claim.kind](problem)
+        except NO_MEANING as error:
+            return Outcome(obligation.role, False, str(error), problem)
+        reason = "no proof was found"
+        if proof is not None:
+            proof = json.loads(json.dumps(proof))
+            try:
+                conditions = proved(at, obligation, list(numbers), proof)
+            except (Invalid, Declined) as error:
+                reason = f"a proof was found, and the kernel does not accept it: {error}"
+            else:
+                accepted = tuple(sorted(conditions, key=lambda c: (c.kind, c.of)))
+                return Outcome(obligation.role, True, "proved", problem, numbers, proof, accepted)
+        if not self.thorough:
+            return Outcome(obligation.role, False, reason, problem, numbers)
+        return self._refuted(obligation, problem, numbers, reason)
+
+    def _refuted(self, obligation: Obligation, problem: Problem, numbers: tuple[int, ...], reason: str) -> Outcome:
+        try:
+            found = DECIDERS[problem.claim.kind](problem)
+        except NO_MEANING as error:
+            return Outcome(obligation.role, False, f"{reason}; {error}", problem, numbers)
+        if found.witness is not None:
+            return Outcome(
+                obligation.role, False, found.witness.says, problem, numbers, witness=found.witness
+            )
+        return Outcome(obligation.role, False, found.reason or reason, problem, numbers)
