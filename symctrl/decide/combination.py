@@ -9,19 +9,25 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
 from itertools import combinations, combinations_with_replacement
+from operator import mul
 from typing import Any
 
 import flint
 import numpy as np
 
 from symctrl.decide.definiteness import decide_matrix
+from symctrl.decide.forms import forms_in
 from symctrl.decide.session import Session
 from symctrl.domains.field import Exact, Poly
 
 MAX_CANDIDATES = 1500
 MAX_MONOMIALS = 400
 MAX_PRODUCTS = 25
+MAX_PAIRED = 8  # symbols whose sums and differences are tried
+MAX_REPEATED = 4
+MAX_MULTIPLIERS = 4
 TINY = 1e-9
 
 
@@ -50,35 +56,42 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     is found.
     """
     if known.times is not None:
-        return _scaled_entry(session, value, strict, known, known.times)
+        return _scaled_entry(session, value, strict, known, [known.times])
     terms = terms_of(session, value, strict, known)
     if terms is not None:
         return {"terms": terms}
     found = _by_fact(session, value, strict)
-    for times in _leading_positives(session) if found is None else ():
+    for times in _multipliers(session) if found is None else ():
         found = found or _scaled_entry(session, value, strict, known, times)
     return found
 
 
 def _scaled_entry(
-    session: Session, value: Exact, strict: bool, known: Known, times: Poly
+    session: Session, value: Exact, strict: bool, known: Known, times: Sequence[Poly]
 ) -> dict[str, Any] | None:
-    """The entry of the value times something that is known to be positive."""
-    scaled = session.domain.polynomial(session.domain.field.normal(session.carrier(value) * times))
-    terms = terms_of(session, scaled, strict, known)
-    return None if terms is None else {"terms": terms, "times": session.domain.field.json(times)}
+    """The entry of the value times factors that are known to be positive."""
+    field = session.domain.field
+    scaled = reduce(mul, times, session.carrier(value))
+    terms = terms_of(session, session.domain.polynomial(field.normal(scaled)), strict, known)
+    return None if terms is None else {"terms": terms, "times": [field.json(factor) for factor in times]}
 
 
-def _leading_positives(session: Session) -> list[Poly]:
-    """The positive generators that lead an assumed equation, whose terms are rewritten only with them; squared."""
+def _multipliers(session: Session) -> list[list[Poly]]:
+    """Positive polynomials with which assumed equations rewrite more: their positive factors, and the positive
+    generators that lead them; and the squares of these. Each as its factors.
+    """
     field, signs = session.domain.field, session.domain.signs
-    product = field.polynomial(1)
-    for p in [p for _, p in session.zeros] + [new.polynomial for new, _ in session.derived]:
+    zeros = [p for _, p in session.zeros] + [new.polynomial for new, _ in session.derived]
+    leading: list[Poly] = []
+    found: list[list[Poly]] = []
+    for p in zeros:
         for v, e in enumerate(p.monomial(0)):
             k = field.size - 1 - v
             if e and signs.generator.get(k) == "positive":
-                product = product * field.variable(k) ** int(e)
-    return [] if product.is_one() else [product, product * product]
+                leading += [field.variable(k)] * int(e)
+        found.append([f for f, _ in p.factor()[1] if signs.of(f) == "positive"])
+    distinct = [p for k, p in enumerate([leading, *found]) if p and p not in [leading, *found][:k]]
+    return [power for p in distinct[:MAX_MULTIPLIERS] for power in (p, [*p, *p])]
 
 
 def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | None:
@@ -91,7 +104,7 @@ def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | N
         if kind == "positive" or (kind == "nonnegative" and not strict):
             quotient, rest = divmod(fact, p)
             if rest.is_zero() and signs.of(quotient) == "positive":
-                return {"times": field.json(quotient), "terms": [["1", [field.json(fact)], []]]}
+                return {"times": [field.json(quotient)], "terms": [["1", [field.json(fact)], []]]}
     return None
 
 
@@ -109,7 +122,24 @@ def terms_of(
     if p.is_zero():
         return None if strict else []
     found = _by_factors(session, p, strict) or (_by_squares(session, p) if not strict else None)
-    return found or _by_programme(session, p, strict, known)
+    found = found or _by_forms(session, p, strict, known)
+    for wide in (False, True):
+        found = found or _by_programme(session, p, strict, _candidates(session, p, known, wide))
+    return found
+
+
+def _by_forms(session: Session, p: Poly, strict: bool, known: Known) -> list[list[Any]] | None:
+    """A quadratic form of an assumed definite matrix, and the rest without its entries."""
+    field = session.domain.field
+    for factor, value in forms_in(session, p):
+        c = dict(p.to_dict()).get(tuple(value.monomial(0)), 0) / value.leading_coefficient()
+        rest = p - value * c
+        entries = field.occurring(value) - field.occurring(rest)
+        if c > 0 and len(entries) > 1:
+            terms = terms_of(session, session.domain.polynomial(rest), strict, known)
+            if terms is not None:
+                return [[str(c), [factor], []], *terms]
+    return None
 
 
 def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | None:
@@ -131,9 +161,9 @@ def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | No
             and k not in session.domain.divided()
         ):
             return None
-        if e % 2:
-            known.append(field.json(f))
-        if e > 1:
+        certain = e if strict and sign == "positive" and e <= MAX_REPEATED else e % 2
+        known += [field.json(f)] * certain
+        if e > certain:
             squares.append(field.json(f ** (e // 2)))
     return [[str(c), known, squares]]
 
@@ -173,11 +203,12 @@ def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
     return result
 
 
-def _by_programme(session: Session, p: Poly, strict: bool, known: Known) -> list[list[Any]] | None:
+def _by_programme(
+    session: Session, p: Poly, strict: bool, candidates: Sequence[Candidate]
+) -> list[list[Any]] | None:
     from scipy.optimize import linprog
 
     field = session.domain.field
-    candidates = _candidates(session, p, known)
     monomials: dict[tuple[int, ...], int] = {}
     columns = []
     for candidate in candidates:
@@ -234,9 +265,10 @@ def _exact_weights(columns: Sequence[dict[int, Any]], target: dict[int, Any]) ->
     return weights
 
 
-def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
-    """The author's forms and squares with every product of assumptions first, then monomials and their
-    pairs.
+def _candidates(session: Session, p: Poly, known: Known, wide: bool) -> list[Candidate]:
+    """The author's forms and squares with every product of assumptions first, then monomials and their pairs.
+
+    wide: all products by themselves before any square, and squares with a constant in them.
     """
     field = session.domain.field
     one = field.polynomial(1)
@@ -246,19 +278,20 @@ def _candidates(session: Session, p: Poly, known: Known) -> list[Candidate]:
     products += [
         (a * b * c, (*x, *y, *z)) for (a, x), (b, y), (c, z) in combinations(facts[1:], 3) if len(facts) < 10
     ]
-    found = []
+    found: list[Candidate] = []
     degree = p.total_degree()
-    for form, value in known.forms:
+    for form, value in [*known.forms, *(forms_in(session, p) if wide else ())]:
         for product, given in products:
             found.append(Candidate(field.normal(product * value), (*given, form), ()))
+    if wide:
+        found += [Candidate(field.normal(q), given, ()) for q, given in products if q.total_degree() <= degree + 2]
     for product, given in products:
-        for square in [*known.squares, *_squares(session, p)]:
+        for square in [*known.squares, *_squares(session, p, wide)]:
             advised = any(square is known_square for known_square in known.squares)
             if not advised and product.total_degree() + 2 * square.total_degree() > degree + 2:
                 continue
-            value = field.normal(product * square * square)
             squares = () if square == one else (square,)
-            found.append(Candidate(value, given, squares))
+            found.append(Candidate(field.normal(product * square * square), given, squares))
             if len(found) >= MAX_CANDIDATES:
                 return found
     return found
@@ -290,19 +323,26 @@ def _beside(session: Session, k: int) -> list[Poly]:
     return [bound - inner, bound + inner]
 
 
-def _squares(session: Session, p: Poly) -> list[Poly]:
-    """Monomials whose squares may occur, their sums and differences in pairs."""
+def _squares(session: Session, p: Poly, wide: bool) -> list[Poly]:
+    """Monomials whose squares may occur, their sums and differences in pairs; if wide, without the symbols of
+    known sign where there are many, and in pairs with 1.
+    """
     field = session.domain.field
     opaque = {k for k, g in enumerate(field.generators) if g.kind not in ("free", "sum")}
     related = {
         k for r in field.relations for k in field.occurring(r) if field.occurring(r) & field.occurring(p)
     }
-    variables = [field.variable(k) for k in sorted(field.occurring(p) | opaque | related)]
-    singles = [field.polynomial(1), *variables]
-    pairs = [a + s * b for a, b in combinations(variables, 2) for s in (1, -1)] if len(variables) <= 8 else []
+    occurring = field.occurring(p) | opaque | related
+    if wide and len(occurring) > MAX_PAIRED:
+        occurring -= {k for k, sign in session.domain.signs.generator.items() if sign == "positive"}
+    one = field.polynomial(1)
+    variables = [field.variable(k) for k in sorted(occurring)]
+    ends = [one, *variables] if wide else variables
+    few = len(variables) <= MAX_PAIRED
+    pairs = [a + s * b for a, b in combinations(ends, 2) for s in (1, -1)] if few else []
     products = [a * b for a, b in combinations_with_replacement(variables, 2)] if p.total_degree() > 3 else []
     minors = [a - b for a, b in combinations(products, 2)] if len(products) <= MAX_PRODUCTS else []
-    return singles + pairs + products + minors
+    return [one, *variables, *pairs, *products, *minors]
 
 
 def _is_sure(session: Session, candidate: Candidate) -> bool:

@@ -182,8 +182,11 @@ class Argument:
         return self.statement.scalars.get(key) != "parameter" and key not in self.statement.motion
 
     def state_is_bounded(self, state: str) -> bool:
+        return self.free_is_bounded(at_node(state, "i"))
+
+    def free_is_bounded(self, name: str) -> bool:
         _, domain = self._reading()
-        return domain.free(at_node(state, "i")).bounded
+        return domain.free(name).bounded
 
     def rate_is_bounded(self, quantity: str, order: int = 1) -> bool:
         return self.traits(rate_listing(quantity, order)).bounded

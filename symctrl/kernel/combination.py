@@ -7,7 +7,7 @@ is nonnegative there; it is positive where in one term each g is positive and ea
 quotient has the sign of its numerator times the factors of odd exponent in its denominator, and that of
 its numerator alone where those factors are positive; all factors are nonzero on the domain.
 
-The terms add up to the quantity, or to it times a positive POLY (`times`).
+The terms add up to the quantity, or to it times positive POLYs (`times`).
 A term is `[c, [g, ..], [POLY, ..]]`. A g is the index of an assumption that a scalar is positive or
 nonnegative, and stands for the numerator of that scalar times its factors of odd exponent; or it is a
 POLY whose sign the kernel knows (a root, an absolute value, an exponential, ..); or `{"given", "vector"}`,
@@ -42,7 +42,9 @@ def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where:
     total: Poly = {}
     positive = False
     table = fields(entry, ("terms",), where, optional=("times",))
-    times: Poly = _positive(replay, table["times"], where) if "times" in table else {0: 1}
+    times: Poly = {0: 1}
+    for factor in typed(table.get("times", []), list, where):
+        times = ring.mul(times, _positive(replay, factor, where))
     for k, term in enumerate(typed(table["terms"], list, where)):
         product, sure = _term(replay, term, f"{where}, term {k}")
         total = ring.add(total, product)

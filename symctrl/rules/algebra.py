@@ -34,7 +34,7 @@ class Algebra:
     def occurring(self, value: Exact) -> set[int]:
         """The generators of the value, and those that they are made of."""
         field = self.session.domain.field
-        found = {g for p in value.values() for g in field.occurring(p)}
+        found = {g for p in value.values() if not p.is_zero() for g in field.occurring(p)}
         found |= {g for key in value for f, _ in key for g in field.occurring(field.factors[f])}
         waiting = list(found)
         while waiting:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from symctrl.kernel.compose import rate_listing
+from symctrl.kernel.rules.barbalat import POWERS
 from symctrl.rules import carries
 from symctrl.rules.chain import Chain
 
@@ -21,13 +23,11 @@ def barbalat(chain: Chain, what: What) -> bool:
 def _one(chain: Chain, e: str, what: What) -> bool:
     if chain.at.has("tends", e):
         return True
+    carries.bounded_reads(chain, rate_listing(e, 1))
     tables = list(_tables(chain, e, what))
-    for table in tables:
-        if chain.attempt("barbalat", table):
-            return True
     if not tables:
         return chain.fail("W is summable", "nothing is known to be summable before this line")
-    return chain.run("barbalat", tables[0])
+    return chain.first("barbalat", tables)
 
 
 def _tables(chain: Chain, e: str, what: What) -> Iterator[dict[str, Any]]:
@@ -37,10 +37,17 @@ def _tables(chain: Chain, e: str, what: What) -> Iterator[dict[str, Any]]:
     rate = {"rate": chain.q(what["rate"])} if what["rate"] is not None else {}
     power = what["power"]
     for W in summable:
-        own = [chain.q(what["least"])] if what["least"] is not None else [None, *carries.squares_in(chain, W, e)]
-        for words in ([_power(chain, power)] if power is not None else [{"power": "2"}, {"power": "1"}]):
-            for least in own:
+        for words in [_power(chain, power)] if power is not None else [{"power": "2"}, {"power": "1"}]:
+            for least in _factors(chain, W, e, words, what["least"]):
                 yield {"e": e, "W": W} | words | rate | ({"least": least} if least else {})
+
+
+def _factors(chain: Chain, W: str, e: str, words: Mapping[str, str], least: Any) -> list[str | None]:
+    if least is not None:
+        return [chain.q(least)]
+    if words["power"] == "p":
+        return [None, *carries.factors(chain)]
+    return [None, *carries.squares_in(chain, W, e, POWERS[words["power"]])]
 
 
 def _power(chain: Chain, power: Any) -> dict[str, str]:
@@ -54,6 +61,7 @@ def barbalat_rate(chain: Chain, what: What) -> bool:
     for part in parts:
         name = chain.q(part)
         carries.ensure(chain, "tends", name)
+        carries.bounded_reads(chain, rate_listing(name, 2))
         met.append(chain.run("barbalat_rate", {"e": name}))
         chain.q(chain.loop.rate(part))  # so that the lines below can speak of it
     return all(met)

@@ -9,13 +9,16 @@ from typing import Any
 from symctrl.expr import Expr, lift
 from symctrl.facts import SETS, Fact
 from symctrl.graph import Instruction, Tape
+from symctrl.kernel.compose import composed
 from symctrl.kernel.values import Sentence
 from symctrl.rules.algebra import Algebra, algebra
 from symctrl.rules.chain import Chain
 from symctrl.rules.combination import combinations
 from symctrl.rules.loop import tape_of
+from symctrl.rules.tapes import bare, single
 
 What = Mapping[str, Any]
+MAX_INSIDE = 12
 
 
 def carries(chain: Chain, what: What) -> bool:
@@ -85,8 +88,17 @@ def ensure(chain: Chain, word: str, name: str) -> bool:
 
 
 def bounded(chain: Chain, name: str) -> bool:
-    if chain.attempt("carries", {"word": "bounded", "how": "composed", "e": name}):
+    composed_of = {"word": "bounded", "how": "composed", "e": name}
+    if chain.attempt("carries", composed_of) or _directly_bounded(chain, name):
         return True
+    tape = tape_of(chain.at.statement.listings[name])
+    inside = [r for r, step in enumerate(tape.code) if step.op in ("ADD", "SUB") and r != tape.outputs[0]]
+    inner = [_directly_bounded(chain, chain.q(single(tape, r))) for r in inside[:MAX_INSIDE]]
+    return any(inner) and chain.attempt("carries", composed_of)
+
+
+def _directly_bounded(chain: Chain, name: str) -> bool:
+    """By a square below a bounded function, by constants, or by a completed square."""
     for V in [V for V in chain.having("bounded") if _shares(chain, V, name)]:
         for least in (None, *squares_in(chain, V, name)):
             table: dict[str, Any] = {"word": "bounded", "how": "square", "e": name, "by": [V]}
@@ -95,12 +107,77 @@ def bounded(chain: Chain, name: str) -> bool:
     for offset in offsets(chain, name):
         if chain.attempt("carries", {"word": "bounded", "how": "square", "e": name, "by": [], "offset": offset}):
             return True
-    return False
+    near = [V for V in chain.having("bounded") if _shares(chain, V, name)]
+    return any(_shifted(chain, V, name) or _solved(chain, V, name) for V in near)
+
+
+def _solved(chain: Chain, s: str, name: str) -> bool:
+    """e from a bounded s = c e + r with a constant c and a bounded r."""
+    found = algebra(chain, [s, name], _isolated)
+    if not found:
+        return False
+    over, less, rest = (chain.q(tape) for tape in found)
+    table = {"word": "bounded", "how": "combination", "e": name, "of": [s, rest], "times": [over, less]}
+    return chain.attempt("carries", table)
+
+
+def _isolated(found: Algebra) -> tuple[Tape, Tape, Tape] | None:
+    """1/c, -1/c and r."""
+    s, e = found.values
+    at = _symbol(found, e)
+    if at is None:
+        return None
+    domain = found.session.domain
+    c = found.coefficient(s, {at: 1})
+    rest = domain.simplified(domain.sub_(s, domain.mul_(c, e)))
+    if not c or not found.is_constant(c) or at in found.occurring(rest):
+        return None
+    over = domain.inv_(c)
+    tapes = [found.tape(value) for value in (over, domain.neg_(over), rest)]
+    return None if None in tapes else (tapes[0], tapes[1], tapes[2])  # type: ignore[return-value]
+
+
+def _shifted(chain: Chain, V: str, name: str) -> bool:
+    """By a square in V that is completed: a (e + b)^2 with constants a and b."""
+    found = algebra(chain, [V, name], _completed)
+    if not found:
+        return False
+    least, shift = (chain.q(tape) for tape in found)
+    y = chain.q(_sum(chain, name, shift))
+    table = {"word": "bounded", "how": "square", "e": y, "by": [V], "least": least}
+    if not chain.attempt("carries", table):
+        return False
+    one, less = chain.q("1"), chain.q("-1")
+    combined = {"word": "bounded", "how": "combination", "e": name, "of": [y, shift], "times": [one, less]}
+    return chain.attempt("carries", combined)
+
+
+def _sum(chain: Chain, a: str, b: str) -> Tape:
+    """Two quantities added up."""
+    return tape_of(composed(chain.at.statement.listings, ["a b +"], {"a": a, "b": b}))
+
+
+def _completed(found: Algebra) -> tuple[Tape, Tape] | None:
+    V, e = found.values
+    at = _symbol(found, e)
+    if at is None:
+        return None
+    domain = found.session.domain
+    a, b = (found.coefficient(V, {at: power}) for power in (2, 1))
+    if not a or not b or not found.is_constant(a) or not found.is_constant(b):
+        return None
+    shift = domain.mul_(b, domain.inv_(domain.add_(a, a)))
+    tapes = found.tape(a), found.tape(domain.simplified(shift))
+    return (tapes[0], tapes[1]) if tapes[0] is not None and tapes[1] is not None else None
 
 
 def tends(chain: Chain, name: str) -> bool:
     if ("exists", "") not in chain.at.facts:
         return False
+    for rule, table in chain.again:
+        if "input" in table and not chain.at.has("tends", table["V"]) and table["input"] != name:
+            ensure(chain, "tends", table["input"])
+            chain.attempt(rule, table)
     decaying = chain.having("tends") + chain.having("exponentially")
     for V in [V for V in dict.fromkeys(decaying) if _shares(chain, V, name)]:
         for least in (None, *squares_in(chain, V, name)):
@@ -226,13 +303,23 @@ def existence(chain: Chain) -> bool:
     return chain.attempt("exists", {"edges": edges(chain)})
 
 
+def bounded_reads(chain: Chain, listing: str) -> None:
+    """Carry boundedness over to what a listing reads, states and signals."""
+    for name in sorted(chain.at.traits(listing).reads):
+        if not chain.at.free_is_bounded(name):
+            bounded(chain, chain.q(bare(name)))
+
+
 def bounded_states(chain: Chain) -> None:
     """Carry boundedness over to every state for which that succeeds."""
-    names = {state: chain.q(_bare(state)) for state in chain.at.statement.motion}
+    names = {state: chain.q(bare(state)) for state in chain.at.statement.motion}
     open_ = [state for state in names if not chain.at.state_is_bounded(state)]
     for state in open_:
         if not bounded(chain, names[state]):
             continue
+    for rate in chain.at.field().values():
+        for name in sorted(n for n in rate.reads if chain.at.is_signal(n) and not chain.at.free_is_bounded(n)):
+            bounded(chain, chain.q(bare(name)))
     left = [names[state] for state in names if not chain.at.state_is_bounded(state)]
     if left:
         forms(chain, left)
@@ -285,11 +372,25 @@ def _hessian(found: Algebra) -> list[Tape] | None:
     return tapes
 
 
-def squares_in(chain: Chain, V: str, name: str) -> list[str]:
-    """Constants a for which a e^2 may be below V: the coefficient of e^2 in it, a half, the gains."""
+def squares_in(chain: Chain, V: str, name: str, power: str = "e e *") -> list[str]:
+    """Constants a for which a e^2, or another power, may be below V.
+
+    The coefficient of e^2 in V, the quotient of V by the power, a half, the gains.
+    """
     tape = algebra(chain, [V, name], _square_coefficient)
-    own = [chain.q(tape)] if tape is not None else []
+    below = chain.q(tape_of(composed(chain.at.statement.listings, [power], {"e": name})))
+    tapes = [tape, algebra(chain, [V, below], _constant_quotient)]
+    own = [chain.q(t) for t in tapes if t is not None]
     return list(dict.fromkeys([*own, chain.q("1/2"), *factors(chain)]))
+
+
+def _constant_quotient(found: Algebra) -> Tape | None:
+    V, e = found.values
+    domain = found.session.domain
+    if not e or not V:
+        return None
+    quotient = domain.simplified(domain.mul_(V, domain.inv_(e)))
+    return found.tape(quotient) if found.is_constant(quotient) else None
 
 
 def _square_coefficient(found: Algebra) -> Tape | None:
@@ -358,7 +459,3 @@ def _squared_bounds(found: Algebra) -> list[Tape]:
 
 def _shares(chain: Chain, V: str, name: str) -> bool:
     return V != name and bool(chain.at.traits(V).reads & chain.at.traits(name).reads)
-
-
-def _bare(state: str) -> Tape:
-    return Tape((Instruction("INPUT", name=state.replace(".*", ".i")),), (0,))

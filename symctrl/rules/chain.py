@@ -47,7 +47,10 @@ class Done:
 
 @dataclass
 class Chain:
-    """The state of an argument on its way: the loop, the facts, and the kernel's lines so far."""
+    """The state of an argument on its way: the loop, the facts, and the kernel's lines so far.
+
+    again: lines that may give more once more is known of their input, or that solutions exist.
+    """
 
     loop: Loop
     seeker: Seeker
@@ -56,6 +59,7 @@ class Chain:
     relations: Table = field(default_factory=dict)
     conditions: set[Condition] = field(default_factory=set)
     outcomes: list[Outcome] = field(default_factory=list)
+    again: list[tuple[str, Table]] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         self.at = Argument(self.loop.statement, (), self.seeker)
@@ -94,6 +98,17 @@ class Chain:
         if met:
             self.outcomes += self.seeker.outcomes
         return met
+
+    def first(self, rule: str, tables: Sequence[Mapping[str, Any]]) -> bool:
+        """The first of the tables that works; if none does, what the best of them lacks."""
+        best, fewest = tables[0], None
+        for table in tables:
+            if self.attempt(rule, table):
+                return True
+            unmet = sum(not outcome.met for outcome in self.seeker.outcomes)
+            if fewest is None or unmet < fewest:
+                best, fewest = table, unmet
+        return self.run(rule, best)
 
     def fail(self, role: str, reason: str) -> bool:
         self.outcomes.append(Outcome(role, False, reason))

@@ -40,7 +40,7 @@ def combinations(chain: Chain, names: Sequence[str]) -> None:
     if not known:
         return
     order = [*names, *known]
-    found = algebra(chain, order, lambda a: _search(a, list(names), known)) or {}
+    found = algebra(chain, order, lambda a: search(a, list(names), known)) or {}
     for name, way in found.items():
         table: dict[str, Any] = {
             "word": "tends",
@@ -59,18 +59,40 @@ def combinations(chain: Chain, names: Sequence[str]) -> None:
         chain.attempt("carries", table)
 
 
-def _search(found: Algebra, names: list[str], known: list[str]) -> dict[str, Found]:
+def search(found: Algebra, names: list[str], known: list[str]) -> dict[str, Found]:
+    """Ways for names, whose values come first in `found`, from what is known, whose values follow."""
     values = dict(zip([*names, *known], found.values, strict=True))
     small = {g: name for name in known if (g := _symbol(found, values[name])) is not None}
     ways: dict[str, Found] = {}
     for name in names:
-        split = _split(found, values[name], small)
-        if split is not None and not split[1]:
-            made = _found(found, split[0], {}, None)
-            if made is not None:
-                ways[name] = made
+        made = _directly(found, values[name], {n: values[n] for n in known}, small)
+        if made is not None:
+            ways[name] = made
     rest = [name for name in names if name not in ways]
     return ways | _linear(found, {n: values[n] for n in rest}, {n: values[n] for n in known}, small)
+
+
+def _directly(
+    found: Algebra, value: Exact, known: dict[str, Exact], small: dict[int, str]
+) -> Found | None:
+    """Every term has a factor that tends to zero, as it is or after division by what tends to zero."""
+    domain, field = found.session.domain, found.session.domain.field
+    split = _split(found, value, small)
+    if split is None:
+        return None
+    parts, rest = split
+    own: dict[str, Exact] = {}
+    for name, z in known.items():
+        if not rest:
+            break
+        numerator, key = domain.together(z)
+        below = reduce(lambda a, b: a * b, (field.factors[f] ** e for f, e in key), field.polynomial(1))
+        if numerator.is_zero() or numerator.is_constant() or not found.is_constant({(): below}):
+            continue
+        quotients = {k: divmod(p, numerator) for k, p in rest.items()}
+        own[name] = {k: q * below for k, (q, _) in quotients.items() if not q.is_zero()}
+        rest = {k: r for k, (_, r) in quotients.items() if not r.is_zero()}
+    return None if rest else _found(found, parts, own, None)
 
 
 def _symbol(found: Algebra, value: Exact) -> int | None:

@@ -6,13 +6,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from symctrl.graph import Tape
-from symctrl.kernel.compose import rate_listing
+from symctrl.kernel.compose import composed
 from symctrl.rules import carries
 from symctrl.rules.algebra import Algebra, algebra
 from symctrl.rules.chain import Chain
+from symctrl.rules.combination import Found, search
+from symctrl.rules.loop import tape_of
 
 What = Mapping[str, Any]
 MAX_ORDER = 4
+MAX_TERMS = 120  # of e and its rates as polynomials, for the ideal that they generate to be completed
 
 
 def lasalle(chain: Chain, what: What) -> bool:
@@ -24,42 +27,54 @@ def lasalle(chain: Chain, what: What) -> bool:
     if not chain.attempt("lasalle", table | {"limit": []}):
         return chain.run("lasalle", table | {"limit": []})
     for order in range(MAX_ORDER + 1):
-        for implied in _implied(chain, zeros, order):
-            if chain.attempt("lasalle", table | {"order": {"rates": order}} | implied):
+        for more in _ways(chain, what, zeros, limits, order):
+            if chain.attempt("lasalle", table | more):
                 return True
     return chain.run("lasalle", table | {"order": {"rates": 1}})
 
 
-def _implied(chain: Chain, zeros: Sequence[str], order: int) -> list[dict[str, Any]]:
-    """The rates as they are; of the first rates also the numerators, with the denominators as factors."""
-    if order != 1:
-        return [{}]
-    rates = [rate_listing(e, 1) for e in zeros]
-    tapes = algebra(chain, [chain.q(_name(chain, r)) for r in rates], _numerators)
-    if not tapes:
-        return [{}]
-    implied = {
-        chain.q(above): [[chain.q(below), e, 1]] for (above, below), e in zip(tapes, zeros, strict=True)
-    }
-    return [{"implied": implied}, {}]
+def _ways(
+    chain: Chain, what: What, zeros: Sequence[str], limits: Sequence[str], order: int
+) -> list[dict[str, Any]]:
+    """With multiples of the limits that are combinations of e and its rates, or with the rates themselves."""
+    ways: list[dict[str, Any]] = []
+    sources = _sources(chain, what["zero"], zeros, order)
+    names = [*limits, *(name for name in sources if name not in limits)]
+    known = list(sources)
+    found = algebra(chain, names + [n for n in known if n in limits], lambda a: _search(a, limits, known, names)) or {}
+    implied = {}
+    for name, way in found.items():
+        multiple = chain.q(_product(chain, name, way))
+        implied[multiple] = [
+            [chain.q(tape), *sources[part]] for part, tape in zip(way.parts, way.factors, strict=True)
+        ]
+    if implied:
+        ways.append({"order": {"rates": order}, "implied": implied})
+    size = algebra(chain, known, lambda a: sum(len(p) for v in a.values for p in v.values())) or 0
+    return ways + ([{"order": {"rates": order}}] if size <= MAX_TERMS else [])
 
 
-def _name(chain: Chain, listing: str) -> Tape:
-    from symctrl.rules.loop import tape_of
+def _search(found: Algebra, limits: Sequence[str], known: Sequence[str], names: Sequence[str]) -> dict[str, Found]:
+    values = dict(zip(names, found.values, strict=False))
+    unknown = [name for name in limits if name not in known]
+    ordered = Algebra(found.session, [values[n] for n in [*unknown, *known]], found.scalars)
+    return search(ordered, unknown, list(known))
 
-    return tape_of(chain.at.statement.listings[listing])
+
+def _sources(chain: Chain, exprs: Sequence[Any], zeros: Sequence[str], order: int) -> dict[str, tuple[str, int]]:
+    """e and its rates as quantities, each with the zero and the order that it is."""
+    sources: dict[str, tuple[str, int]] = {}
+    for expr, zero in zip(exprs, zeros, strict=True):
+        current = expr
+        for k in range(order + 1):
+            sources.setdefault(chain.q(current), (zero, k))
+            current = chain.loop.rate(current)
+    return sources
 
 
-def _numerators(found: Algebra) -> list[tuple[Tape, Tape]] | None:
-    domain, field = found.session.domain, found.session.domain.field
-    pairs = []
-    for value in found.values:
-        numerator, key = domain.together(value)
-        below = field.polynomial(1)
-        for f, e in key:
-            below = below * field.factors[f] ** e
-        above, under = found.tape({(): numerator}), found.tape({(): below})
-        if above is None or under is None or not found.is_constant({(): below}):
-            return None
-        pairs.append((above, under))
-    return pairs
+def _product(chain: Chain, name: str, way: Found) -> Tape:
+    """The limit times the divisor of its combination."""
+    if way.divisor is None:
+        return tape_of(chain.at.statement.listings[name])
+    divisor = chain.q(way.divisor)
+    return tape_of(composed(chain.at.statement.listings, ["g d *"], {"g": name, "d": divisor}))

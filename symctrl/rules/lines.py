@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from symctrl.graph import Instruction, Tape
+from symctrl.graph import Tape
 from symctrl.rules import carries
 from symctrl.rules.chain import Chain
+from symctrl.rules.tapes import single
 
 What = Mapping[str, Any]
 
@@ -31,6 +32,7 @@ def decays(chain: Chain, what: What) -> bool:
         named["set"] = chain.q(what["radius"] - what["V"])
     if what["b"] is not None or what["radius"] is not None or what["input"] is not None:
         _existence_by(chain, dict(named))
+    chain.again.append(("decays", named))
     return chain.run("decays", named)
 
 
@@ -95,21 +97,6 @@ def arguments(chain: Chain) -> list[Tape]:
             elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
                 found.append(single(tape, step.args[0]))
     return found
-
-
-def single(tape: Tape, register: int) -> Tape:
-    """One register of a tape, with the instructions that it needs."""
-    needed = {register}
-    for r in range(register, -1, -1):
-        if r in needed:
-            needed.update(tape.code[r].args)
-    new = {old: n for n, old in enumerate(sorted(needed))}
-    code = tuple(
-        Instruction(s.op, tuple(new[a] for a in s.args), s.name, s.value)
-        for r, s in enumerate(tape.code)
-        if r in needed
-    )
-    return Tape(code, (new[register],))
 
 
 def lyapunov(chain: Chain, what: What) -> bool:

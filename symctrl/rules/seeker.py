@@ -117,7 +117,8 @@ class Seeker:
             try:
                 conditions = proved(at, obligation, list(numbers), proof)
             except (Invalid, Declined) as error:
-                reason = f"a proof was found, and the kernel does not accept it: {error}"
+                refused = f"a proof was found, and the kernel does not accept it: {error}"
+                return Outcome(obligation.role, False, refused, problem, numbers)
             else:
                 accepted = tuple(sorted(conditions, key=lambda c: (c.kind, c.of)))
                 return Outcome(obligation.role, True, "proved", problem, numbers, proof, accepted)

@@ -30,7 +30,7 @@ SIGNS = {
     "an_entry_twice": changed(SQUARES, "proof", "entries", to=SQUARES["proof"]["entries"] * 2),
     "strict_from_squares": changed(SQUARES, "statement", "claim", "kind", to="positive"),
     "times_zero": changed(
-        changed(SQUARES, "proof", "entries", 0, "times", to=[]), "proof", "entries", 0, "terms", to=[]
+        changed(SQUARES, "proof", "entries", 0, "times", to=[[]]), "proof", "entries", 0, "terms", to=[]
     ),
     "times_a_negative_number": signs(
         "nonnegative",
@@ -38,7 +38,7 @@ SIGNS = {
         [[["1", [], [X]]]],
         **states("x"),
         conditions=[],
-        proof={"generators": free("x"), "entries": [{"times": [["-1"]], "terms": [["1", [], [X]]]}]},
+        proof={"generators": free("x"), "entries": [{"times": [[["-1"]]], "terms": [["1", [], [X]]]}]},
     ),
     "times_a_square": signs(
         "nonnegative",
@@ -46,7 +46,7 @@ SIGNS = {
         [[["1", [], []]]],
         **states("x"),
         conditions=[],
-        proof={"generators": free("x"), "entries": [{"times": [["1", 0, 2]], "terms": [["1", [X], [X]]]}]},
+        proof={"generators": free("x"), "entries": [{"times": [[["1", 0, 2]]], "terms": [["1", [X], [X]]]}]},
     ),
     "a_nonzero_number_taken_for_positive": from_given("nonzero", "return x", {"generators": free("x")}),
     "a_factor_of_the_wrong_assumption": signs(

@@ -146,7 +146,7 @@ class TestTimes:
             "factors": [],
             "hints": [],
         }
-        verify(stated, {**proof, "entries": [{"terms": terms, "times": times}]})
+        verify(stated, {**proof, "entries": [{"terms": terms, "times": [times]}]})
 
     def test_a_positive_multiple(self):
         self.prove(X, [["1", [0, 0], [X_LESS_Y]]])

@@ -77,14 +77,23 @@ def _by_rate(at: Argument, of: Roles) -> None:
     at.learn("bounded", e)
 
 
-def _combination(at: Argument, of: Roles) -> None:
+def _bounded_combination(at: Argument, of: Roles) -> None:
+    """e = c_1 z_1 + ..."""
+    _combination(at, of, "bounded")
+
+
+def _small_combination(at: Argument, of: Roles) -> None:
     """d e = c_1 z_1 + ..."""
+    _combination(at, of, "tends")
+
+
+def _combination(at: Argument, of: Roles, word: str) -> None:
     e, parts, factors, d = of.one("e"), of.many("of"), of.many("times"), of.maybe("divisor")
     at.require(
         "there is a factor for each part", len(parts) == len(factors), "factors and parts differ in number"
     )
     for k, (z, c) in enumerate(zip(parts, factors, strict=False), start=1):
-        at.need(f"part {k} tends to zero", "tends", z)
+        at.need(f"part {k}: {word}", word, z)
         at.need(f"factor {k} is bounded", "bounded", c)
     named = {f"z{k}": z for k, z in enumerate(parts)} | {f"c{k}": c for k, c in enumerate(factors)}
     total = "0" + "".join(f" c{k} z{k} * +" for k in range(len(parts)))
@@ -94,7 +103,7 @@ def _combination(at: Argument, of: Roles) -> None:
         at.prove("the divisor is not zero", "positive", "d d *", d=d)
         left, roles = "e d *", roles | {"d": d}
     at.prove("e is the combination", "equal", [left, total], **roles, **named)
-    at.learn("tends", e)
+    at.learn(word, e)
 
 
 def _under(at: Argument, of: Roles) -> None:
@@ -195,7 +204,8 @@ WAYS: dict[tuple[str, str], Callable[[Argument, Roles], None]] = {
     ("bounded", "square"): _square,
     ("bounded", "form"): _form,
     ("bounded", "rate"): _by_rate,
-    ("tends", "combination"): _combination,
+    ("bounded", "combination"): _bounded_combination,
+    ("tends", "combination"): _small_combination,
     ("tends", "square"): _under,
     ("summable", "parts"): _summable,
     ("exponentially", "square"): _rate,
