@@ -10,9 +10,11 @@ from symctrl.context import noticing_graph, within
 from symctrl.decide.claims import Part, digest_of, parts, verdict_of
 from symctrl.expr import Nonconforming, lift
 from symctrl.statements import AtValues, Conforms
+from symctrl.theorem import Theorem
 from symctrl.verdict import Outcome, Verdict
 
 if TYPE_CHECKING:
+    from symctrl.rows import Row
     from symctrl.store import Store
     from symctrl.study import Study
     from symctrl.written import Entry
@@ -23,7 +25,8 @@ class Decided:
     """A claim with its problems and verdict.
 
     claim: what the function returned, None where it does not conform. using: the claims of the statements
-    that it uses. of_graph: the claim speaks of the instance's graph.
+    that it uses. of_graph: the claim speaks of the instance's graph. below: the rows of a theorem's arguments;
+    steps: those that the proof consists of; unmet: those that are missing.
     """
 
     claim: Any
@@ -31,6 +34,9 @@ class Decided:
     verdict: Verdict
     using: tuple[Any, ...] = ()
     of_graph: bool = False
+    below: tuple[Row, ...] = ()
+    steps: tuple[str, ...] = ()
+    unmet: tuple[str, ...] = ()
 
     @property
     def at_values(self) -> bool:
@@ -46,10 +52,20 @@ def decide(study: Study, entry: Entry, reading: str | None, store: Store | None,
             if is_named(study, entry.corrects or entry.id):
                 claim = Conforms(_body(study, entry, claim))
             using = tuple(_used(study, other) for other in entry.using)
+            if isinstance(claim, Theorem):
+                return _theorem(study, entry, claim, bool(marks))
             found = tuple(parts(study, claim, entry.id, using=using))
         except (Nonconforming, UndefinedLetter) as error:
             return Decided(None, (), Verdict(Outcome.ILL_FORMED, str(error)), of_graph=bool(marks))
         return Decided(claim, found, verdict_of(found, store), using, bool(marks))
+
+
+def _theorem(study: Study, entry: Entry, claim: Theorem, of_graph: bool) -> Decided:
+    from symctrl.rules import theorems
+
+    made = theorems.decide(study, claim, entry.id, entry.equation)
+    part = Part(made.problem)
+    return Decided(claim, (part,), made.verdict, (), of_graph, made.rows, made.rests_on, made.unmet)
 
 
 def _used(study: Study, entry: Entry) -> Used:

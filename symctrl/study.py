@@ -14,10 +14,12 @@ from symctrl.bounds import Bound, Statement, claimed
 from symctrl.context import Instance, current
 from symctrl.entries import component_names
 from symctrl.expr import Comparison, Expr, Liftable, deferred, foreign, lift, symbol
+from symctrl.facts import Fact
 from symctrl.fleet import Fleet
 from symctrl.quaternion import Quaternion
 from symctrl.records import Undefined, rate
 from symctrl.statements import Definite, Equal, Nonzero, equal
+from symctrl.theorem import ArgumentEntry, CounterexampleEntry, Run
 from symctrl.written import Definition, Entry, Law, StudyError, enter
 
 if TYPE_CHECKING:
@@ -64,6 +66,8 @@ class Study:
         self.entries: dict[str, Entry] = {}
         self.numbers: list[str] = []
         self.rejections: dict[str, str] = {}
+        self.arguments: list[ArgumentEntry] = []
+        self.counterexamples: list[CounterexampleEntry] = []
         self.of_fleet: Fleet | None = None
         self.instance = Instance()
         self.graph: str | None = None
@@ -254,6 +258,33 @@ class Study:
 
         return decorate
 
+    def argument(self, theorem: Entry | str) -> Callable[[Callable[[Run], Any]], ArgumentEntry]:
+        """Decorator: a chain of rules for a theorem, line by line; the function takes every solution."""
+
+        def decorate(function: Callable[[Run], Any]) -> ArgumentEntry:
+            made = ArgumentEntry(self._theorem_id(theorem), function.__name__, function)
+            self._unused(self.arguments, made)
+            self.arguments.append(made)
+            return made
+
+        return decorate
+
+    def counterexample(
+        self, theorem: Entry | str, against: Fact | None = None
+    ) -> Callable[[Callable[[], Any]], CounterexampleEntry]:
+        """Decorator: what contradicts a conclusion of a theorem (all its conclusions, if `against` is left out).
+
+        The function returns at(..), along(..), leaves(..), undefined(..) or unstable(..).
+        """
+
+        def decorate(function: Callable[[], Any]) -> CounterexampleEntry:
+            made = CounterexampleEntry(self._theorem_id(theorem), function.__name__, function, against)
+            self._unused(self.counterexamples, made)
+            self.counterexamples.append(made)
+            return made
+
+        return decorate
+
     def rejected(self, claim: Entry, why: str) -> None:
         """The printed claim fails and nothing takes its place."""
         self.rejections[claim.id] = why
@@ -334,6 +365,20 @@ class Study:
         if self.symbols[base].gain and value <= 0:
             raise StudyError(f"{key}={text}: the gain {key} must be positive")
         return value
+
+    def _theorem_id(self, theorem: Entry | str) -> str:
+        from difflib import get_close_matches
+
+        if isinstance(theorem, Entry):
+            return theorem.id
+        if theorem not in self.entries:
+            near = get_close_matches(theorem, self.entries, 3, 0.4) or list(self.entries)[-3:]
+            raise StudyError(f"{theorem} is no theorem of {self.name}; it has {', '.join(near)}")
+        return theorem
+
+    def _unused(self, known: Sequence[Any], made: Any) -> None:
+        if any((one.theorem, one.id) == (made.theorem, made.id) for one in known):
+            raise StudyError(f"{made.theorem} has two functions {made.id}; a name is the id of one")
 
     def _law(self, function: Callable[..., Any], equation: str, u: Any, options: dict[str, Any]) -> Law:
         made = Law(enter(self, function, "law", equation, **options), self, u)

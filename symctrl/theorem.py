@@ -5,7 +5,7 @@ An argument only records its lines; they are decided by `symctrl.rules`.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +14,7 @@ from symctrl.expr import Comparison, Expr, lift
 from symctrl.facts import Fact, point
 from symctrl.quaternion import Quaternion
 from symctrl.statements import Definite, Equal, Nonzero
+from symctrl.text import text
 from symctrl.written import Definition, Law
 
 SUPPOSABLE = frozenset(("tends", "bounded", "apart", "summable"))
@@ -107,11 +108,43 @@ def along_trajectory(claim: Statement | Comparison) -> About:
 
 
 @dataclass(frozen=True, eq=False)
+class ArgumentEntry:
+    """An argument for a theorem, by the ids of both."""
+
+    theorem: str
+    id: str
+    function: Callable[[Run], Any]
+
+
+@dataclass(frozen=True, eq=False)
+class CounterexampleEntry:
+    """What is offered against a theorem, or against one of its conclusions."""
+
+    theorem: str
+    id: str
+    function: Callable[[], Any]
+    against: Fact | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class Line:
     """One line of an argument. what: the arguments of the rule, by name."""
 
     rule: str
     what: Mapping[str, Any]
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """What the author did not leave out."""
+        return {
+            name: value
+            for name, value in self.what.items()
+            if value is not None and not (isinstance(value, tuple | dict) and not value)
+        }
+
+    def text(self) -> str:
+        """The line as it was written, in short."""
+        return f"{self.rule}({'; '.join(f'{name}: {_shown(value)}' for name, value in self.given.items())})"
 
 
 class Run:
@@ -235,6 +268,16 @@ class Run:
 
     def _line(self, rule: str, **what: Any) -> None:
         self.lines.append(Line(rule, what))
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, tuple):
+        return ", ".join(map(_shown, value))
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} = {_shown(entry)}" for name, entry in value.items())
+    if isinstance(value, Expr):
+        return text(value)
+    return value.text() if isinstance(value, Statement) else str(value)
 
 
 def _one(x: Any) -> Expr:

@@ -23,6 +23,7 @@ from typing import Any
 
 import flint
 import numpy as np
+from flint import arb
 
 from symctrl.domains.interval import Ball, ball, bounds
 from symctrl.domains.series import Undecided
@@ -31,10 +32,11 @@ from symctrl.taylor import Taylor
 from symctrl.tubes import Box, End, Frame, Tube, TubeStep
 
 GUARD = 40  # bits of the working precision beyond those of the boxes
-SHORTEST = 60  # steps below 2^-SHORTEST of the whole time are given up
+SHORTEST = 30  # steps below 2^-SHORTEST of the whole time are given up
 SLACK = Fraction(1, 8)  # of what a step adds to a box
 ATTEMPTS = 12  # to find a box
 MAX_STEPS = 20_000
+LARGE, TINY = arb(2) ** 4096, Fraction(1, 2**4096)
 SHORT = 24  # bits of the entries of a frame
 FLAT = 60  # bits by which one state's scale may be below another's in a frame
 
@@ -106,9 +108,9 @@ class _Stepper:
         self, t: Fraction, box: Box, frame: Frame, h: Fraction
     ) -> tuple[TubeStep, Frame, Box, Fraction]:
         """The step from t, the frame and the box after it, and a length for the next one."""
-        why = "no box holds it for even a short time"
-        while h > self.until / 2**SHORTEST:
-            factor = Fraction(1, 2)
+        shortest = min(h, self.until / 2**SHORTEST)
+        while h >= shortest:
+            factor, why = Fraction(1, 2), "no box holds it for even a short time"
             try:
                 over = self._over(box, h)
                 rest = None if over is None else self._order(over, h, self.order)
@@ -129,7 +131,7 @@ class _Stepper:
 
     def _over(self, box: Box, h: Fraction) -> Box | None:
         """A box that box + [0, h] f does not leave, or None."""
-        tried, grown = box, Fraction(1, 8)
+        tried = box
         for _ in range(ATTEMPTS):
             image = self._image(box, tried, h)
             if image is None:
@@ -138,8 +140,7 @@ class _Stepper:
                 closer = self._wider(image, SLACK / 256)
                 again = self._image(box, closer, h)
                 return closer if again is not None and _inside(again, closer) else tried
-            tried = self._wider(tuple(map(_hull, image, tried)), grown)
-            grown *= 2
+            tried = self._wider(image, 2 * SLACK)
         return None
 
     def _image(self, box: Box, over: Box, h: Fraction) -> Box | None:
@@ -221,8 +222,11 @@ class _Stepper:
 
 
 def _bounded(balls: Sequence[Ball]) -> Box | None:
-    ends = [bounds(x) for x in balls]
-    return None if None in ends else tuple(end for end in ends if end is not None)
+    """Bounds of each; None where one has none, or only such as are out of all proportion."""
+    if not all(x.abs_upper() < LARGE for x in balls):
+        return None
+    ends = [(-TINY, TINY) if not x == 0 and x.abs_upper() * LARGE < 1 else bounds(x) for x in balls]
+    return tuple(end for end in ends if end is not None)
 
 
 def _certain(column: Any) -> Box:

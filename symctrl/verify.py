@@ -19,6 +19,7 @@ from symctrl.latex import latex
 from symctrl.problem import PROVED
 from symctrl.rows import Given, Report, Row
 from symctrl.statements import Conforms, Equal
+from symctrl.theorem import Theorem
 from symctrl.verdict import Outcome, Verdict
 from symctrl.written import Entry, StudyError
 
@@ -51,7 +52,7 @@ def verify(
         for id_ in entry.ids:
             if id_ in wanted:
                 progress(id_)
-                rows.append((decided or {}).get(id_) or _row(study, entry, id_, store))
+                rows += _known(decided or {}, id_) or _rows(study, entry, id_, store)
     rows = standing.settle(study, rows, complete=only is None)
     standing.refuse_needless(study, rows)
     used = {row.equation for row in rows}
@@ -77,7 +78,13 @@ def _wanted(study: Study, only: Collection[str] | None) -> set[str]:
     return found
 
 
-def _row(study: Study, entry: Entry, id_: str, store: Store | None) -> Row:
+def _known(decided: Mapping[str, Row], id_: str) -> list[Row]:
+    """The row of a claim and those of its arguments, where another process has found them."""
+    return [row for name, row in decided.items() if name == id_ or name.startswith(f"{id_}/")]
+
+
+def _rows(study: Study, entry: Entry, id_: str, store: Store | None) -> list[Row]:
+    """The row of a claim; below that of a theorem those of its arguments."""
     began = time.perf_counter()
     reading = id_.partition("[")[2].rstrip("]") or None
     variant = "printed" if entry.form in ("printed", "definition", "law") else "corrected"
@@ -93,7 +100,7 @@ def _row(study: Study, entry: Entry, id_: str, store: Store | None) -> Row:
     if decided.verdict.outcome is Outcome.PROVED:
         with within(replace(study.instance, variant=variant)):
             row = _with_evidence(study, decided, row)
-    return replace(row, seconds=round(time.perf_counter() - began, 3))
+    return [replace(row, seconds=round(time.perf_counter() - began, 3)), *decided.below]
 
 
 def _with_conditions(
@@ -122,7 +129,8 @@ def _made(study: Study, entry: Entry, id_: str, decided: Decided) -> Row:
         reading=id_.partition("[")[2].rstrip("]") or entry.reading,
         given=_given(decided.parts),
         holds_for=_holds_for(study, decided),
-        rests_on=_rests_on(study, entry, decided.parts),
+        rests_on=(*_rests_on(study, entry, decided.parts), *decided.steps),
+        unmet=decided.unmet,
         units=units_of(study, decided.parts[0].problem) if decided.parts else None,
         witness=verdict.witness,
         certificate=verdict.certificate,
@@ -189,6 +197,8 @@ def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
     if not evidence.point_known(problems):
         reason = f"{row.reason}; no point is known at which all assumptions hold"
         return replace(row, reason=reason, point_known=False)
+    if isinstance(decided.claim, Theorem):
+        return row
     if not isinstance(decided.claim, Equal) or len(decided.parts) != 1:
         return replace(row, twins=evidence.reversed_twins(problems))
     found = evidence.numeric(decided.parts[0].problem)

@@ -31,7 +31,7 @@ def carries(chain: Chain, what: What) -> bool:
     if fact.word in SETS:
         return sets(chain, fact, parts)
     names = chain.qs(parts)
-    hints = {k: v for k, v in what.items() if k != "fact" and v not in (None, ())}
+    hints = {k: v for k, v in what.items() if k != "fact" and v is not None and not (isinstance(v, tuple) and not v)}
     if hints:
         return all([_hinted(chain, fact.word, name, hints) for name in names])
     for name in names:

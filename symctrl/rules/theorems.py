@@ -1,0 +1,230 @@
+"""A theorem's verdict: proved by the first argument that closes, refuted by a counterexample that the kernel
+accepts, otherwise undecided with what is missing; and one row for each line and obligation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from symctrl.kernel.values import Sentence
+from symctrl.problem import Problem
+from symctrl.rows import Row
+from symctrl.rules.carries import conclude
+from symctrl.rules.chain import Chain, Done, accepted, recorded
+from symctrl.rules.loop import Loop
+from symctrl.rules.planners import PLANNERS
+from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.theorem import ArgumentEntry, Theorem
+from symctrl.verdict import Condition, Verdict
+from symctrl.verdict import Outcome as Verdicts
+
+if TYPE_CHECKING:
+    from symctrl.study import Study
+
+PHRASES = {"exists": "solutions exist for all time"}
+
+
+@dataclass(frozen=True)
+class Tried:
+    """An argument, decided. open_: conclusions that it does not give. certificate: where it closes."""
+
+    entry: ArgumentEntry
+    begin: tuple[Outcome, ...]
+    lines: tuple[Done, ...]
+    open_: tuple[str, ...]
+    conditions: tuple[Condition, ...] = ()
+    certificate: dict[str, Any] | None = None
+    refused: str | None = None
+
+    @property
+    def closes(self) -> bool:
+        return self.certificate is not None
+
+    @property
+    def why_not(self) -> str:
+        """The first cause."""
+        for outcome in self.begin:
+            if not outcome.met:
+                return f"{outcome.role}: {outcome.reason}"
+        for n, done in enumerate(self.lines, start=1):
+            if not done.met:
+                return f"line {n}, {done.line.rule}: {done.reason}"
+        if self.refused is not None:
+            return f"the kernel does not accept the argument: {self.refused}"
+        return f"no line gives that {', nor that '.join(self.open_)}"
+
+
+@dataclass(frozen=True)
+class Decided:
+    """A theorem's problem, verdict and rows of its arguments."""
+
+    problem: Problem
+    verdict: Verdict
+    rows: tuple[Row, ...]
+    rests_on: tuple[str, ...] = ()
+    unmet: tuple[str, ...] = ()
+    tried: tuple[Tried, ...] = field(default=())
+
+
+def decide(study: Study, theorem: Theorem, id_: str, equation: str) -> Decided:
+    """The verdict with the definitions and laws of the instance at hand. Raises StudyError."""
+    loop = Loop(study, theorem, id_)
+    refuse_assumed_conclusions(loop, id_)
+    tried = [attempt(study, theorem, id_, entry) for entry in study.arguments if entry.theorem == id_]
+    rows = tuple(row for one in tried for row in rows_of(one, id_, equation))
+    closing = next((one for one in tried if one.closes), None)
+    refuted = _refuted(study, loop, id_)
+    if closing is not None and isinstance(refuted, Verdict):
+        from symctrl.verify import ToolError
+
+        raise ToolError(f"{id_} is proved by {closing.entry.id} and refuted by a counterexample")
+    if closing is not None:
+        reason = f"by {closing.entry.id}, {len(closing.lines)} lines"
+        verdict = Verdict(
+            Verdicts.PROVED, reason, f"argument {closing.entry.id}", closing.conditions, closing.certificate
+        )
+        prefix = f"{id_}/{closing.entry.id}/"
+        steps = tuple(r.id for r in rows if r.id.startswith(prefix) and r.form == "step")
+        return Decided(loop.problem, verdict, rows, steps, (), tuple(tried))
+    if isinstance(refuted, Verdict):
+        return Decided(loop.problem, refuted, rows, (), (), tuple(tried))
+    reasons = [f"{one.entry.id}: {one.why_not}" for one in tried] + refuted
+    reason = "; ".join(reasons) or "no argument and no counterexample is given"
+    unmet = tuple(r.id for r in rows if r.form == "obligation" and r.verdict != "proved")
+    return Decided(loop.problem, Verdict(Verdicts.UNDECIDED, reason, "rules"), rows, (), unmet, tuple(tried))
+
+
+def attempt(study: Study, theorem: Theorem, id_: str, entry: ArgumentEntry, thorough: bool = True) -> Tried:
+    """One argument, line by line, with a certificate where it closes."""
+    chain = Chain(Loop(study, theorem, id_), Seeker(id_, thorough))
+    begin = tuple(chain.outcomes)
+    lines = tuple(chain.decided(recorded(entry.function), PLANNERS))
+    whole = all(o.met for o in begin) and all(done.met for done in lines)
+    if whole:
+        for sentence in chain.open_conclusions():
+            conclude(chain, sentence)
+    open_ = tuple(said(chain.loop, s) for s in chain.open_conclusions())
+    if not whole or open_:
+        return Tried(entry, begin, lines, open_)
+    made = chain.certificate()
+    refused = accepted(made)
+    if refused is not None:
+        return Tried(entry, begin, lines, open_, refused=refused)
+    conditions = tuple(Condition(c["kind"], c["of"]) for c in made["statement"]["conditions"])
+    return Tried(entry, begin, lines, open_, conditions, made)
+
+
+def said(loop: Loop, sentence: Sentence) -> str:
+    """A conclusion in words."""
+    if sentence.word == "exists":
+        return PHRASES["exists"]
+    at = loop.statement.claim.then.index(sentence)
+    return loop.theorem.then[at].text()
+
+
+def refuse_assumed_conclusions(loop: Loop, id_: str) -> None:
+    """Raises StudyError where a conclusion is assumed of the trajectory."""
+    from symctrl.kernel.argument import Argument
+    from symctrl.kernel.theorem import output_key
+    from symctrl.written import StudyError
+
+    at = Argument(loop.statement, (), Seeker(id_))
+    claim = loop.statement.claim
+    supposed = {(s.word, output_key(at, k)) for s in claim.suppose for k in s.of}
+    along = {
+        (a.kind, at.output_traits(a.of[0]).key) for a in loop.statement.given if a.about == "trajectory"
+    }
+    for sentence, fact in zip(claim.then, loop.theorem.then, strict=True):
+        keys = [output_key(at, k) for k in sentence.of]
+        kind = "zero" if sentence.zero or sentence.word == "tends" else "nonnegative"
+        if any((sentence.word, key) in supposed or (kind, key) in along for key in keys):
+            raise StudyError(f"{id_}: the conclusion that {fact.text()} is assumed of the trajectory")
+
+
+def rows_of(tried: Tried, id_: str, equation: str) -> Iterator[Row]:
+    """A row for each line, and for each of its obligations."""
+    for n, done in enumerate(tried.lines, start=1):
+        line_id = f"{id_}/{tried.entry.id}/{n}"
+        obligations = list(_obligations(done.outcomes, line_id, equation, done.line.rule))
+        yield _step(done, line_id, n, equation, tuple(row.id for row in obligations), tried)
+        yield from obligations
+    yield from _obligations(tried.begin, f"{id_}/{tried.entry.id}/0", equation, "begin")
+
+
+def _step(done: Done, line_id: str, n: int, equation: str, below: Sequence[str], tried: Tried) -> Row:
+    refuted = next((o for o in done.outcomes if not o.met and o.witness is not None), None)
+    verdict = "proved" if done.met else "refuted" if refuted is not None else "undecided"
+    broken = next((k for k, d in enumerate(tried.lines, start=1) if not d.met), None)
+    prefix = line_id.rpartition("/")[0]
+    return Row(
+        id=line_id,
+        equation=equation,
+        statement=f"line {n}: {done.line.text()}",
+        latex="",
+        form="step",
+        corrects=None,
+        kind="step",
+        verdict=verdict,
+        stands=False,
+        conditional=False,
+        reason=done.reason,
+        method="rule",
+        rule=done.line.rule,
+        rests_on=tuple(below),
+        unmet=tuple(f"{line_id}/{o.role}" for o in done.outcomes if not o.met),
+        blocked_by=f"{prefix}/{broken}" if done.blocked else None,
+        witness=_witness(refuted),
+    )
+
+
+def _obligations(outcomes: Sequence[Outcome], line_id: str, equation: str, rule: str) -> Iterator[Row]:
+    seen: set[str] = set()
+    for outcome in outcomes:
+        name = outcome.role
+        count = 1
+        while name in seen:
+            count += 1
+            name = f"{outcome.role} ({count})"
+        seen.add(name)
+        yield Row(
+            id=f"{line_id}/{name}",
+            equation=equation,
+            statement=outcome.role,
+            latex="",
+            form="obligation",
+            corrects=None,
+            kind=outcome.problem.claim.kind if outcome.problem is not None else "structure",
+            verdict="proved" if outcome.met else "refuted" if outcome.witness is not None else "undecided",
+            stands=False,
+            conditional=False,
+            reason=outcome.reason,
+            method="rule",
+            rule=rule,
+            role=outcome.role,
+            witness=_witness(outcome),
+        )
+
+
+def _witness(outcome: Outcome | None) -> dict[str, Any] | None:
+    if outcome is None or outcome.witness is None or outcome.problem is None:
+        return None
+    return outcome.witness.values_json(outcome.problem)
+
+
+def _refuted(study: Study, loop: Loop, id_: str) -> Verdict | list[str]:
+    """The first counterexample that the kernel accepts, or why those that are offered are none."""
+    reasons: list[str] = []
+    for entry in study.counterexamples:
+        if entry.theorem != id_:
+            continue
+        from symctrl.rules.against import contradict
+
+        found = contradict(loop, entry.function(), entry.against)
+        if not isinstance(found, str):
+            return Verdict(
+                Verdicts.REFUTED, found.says, f"counterexample {entry.id}", (), found.certificate, found.witness
+            )
+        reasons.append(f"{entry.id} is no counterexample: {found}")
+    return reasons
