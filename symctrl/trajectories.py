@@ -225,7 +225,7 @@ def _bounded(balls: Sequence[Ball]) -> Box | None:
     """Bounds of each; None where one has none, or only such as are out of all proportion."""
     if not all(x.abs_upper() < LARGE for x in balls):
         return None
-    ends = [(-TINY, TINY) if not x == 0 and x.abs_upper() * LARGE < 1 else bounds(x) for x in balls]
+    ends = [(-TINY, TINY) if not x.is_zero() and x.abs_upper() * LARGE < 1 else bounds(x) for x in balls]
     return tuple(end for end in ends if end is not None)
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import casadi as ca
 
-from symctrl.graph import read, unfolded
+from symctrl.graph import Tape, read, unfolded
 from symctrl.kernel.form import read_statement
 from symctrl.kernel.tube import Segment, verify_tube
 from symctrl.problem import Claim, Meaning, Problem
@@ -29,30 +29,28 @@ def motion(
     rated: a name, and the formula of which it is the rate.
     """
     symbols = {name: ca.SX.sym(name) for name in kinds}
-    names = {rated[0]: ca.SX.sym(rated[0])} if rated else {}
-
-    def tape(formulas: Formulas, known: Mapping[str, Any]) -> Any:
-        with unfolded():
-            entries = ca.vertcat(*formulas(**known))
-            return read(ca.Function("f", [ca.vertcat(*known.values())], [ca.densify(entries)]), list(known))
-
+    named = symbols | ({rated[0]: ca.SX.sym(rated[0])} if rated else {})
     states = [name for name, kind in kinds.items() if kind == "state"]
     inputs = [name for name, kind in kinds.items() if kind == "input"]
-    listings = {"motion": tape(rates, symbols | names)}
-    if law is not None:
-        listings["law"] = tape(law, symbols)
-    if rated is not None:
-        listings["rated"] = tape(rated[1], symbols)
+
+    def tape(formulas: Sequence[Any]) -> Tape:
+        entries = ca.vertcat(*formulas)
+        return read(ca.Function("f", [ca.vertcat(*named.values())], [ca.densify(entries)]), list(named))
+
+    with unfolded():
+        listings = {f"motion {x}": tape([f]) for x, f in zip(states, rates(**named), strict=True)}
+        listings |= {"law": tape(law(**symbols))} if law else {}
+        listings |= {"rated": tape(rated[1](**symbols))} if rated else {}
     return Problem(
         "motions",
         "tube",
         "a motion",
         listings,
-        Claim("conforms", "motion", (len(states), 1)),
+        Claim("conforms", f"motion {states[0]}", (1, 1)),
         scalars=kinds,
-        names={name: Meaning("rate", ("rated", 0)) for name in names},
-        motion={name: ("motion", k) for k, name in enumerate(states)},
-        laws={"law": {name: ("law", k) for k, name in enumerate(inputs)}} if law is not None else {},
+        names={rated[0]: Meaning("rate", ("rated", 0))} if rated else {},
+        motion={name: (f"motion {name}", 0) for name in states},
+        laws={"law": {name: ("law", k) for k, name in enumerate(inputs)}} if law else {},
     )
 
 
@@ -60,7 +58,9 @@ def numbers(**values: str | int) -> dict[str, Fraction]:
     return {name: Fraction(value) for name, value in values.items()}
 
 
-def verified(problem: Problem, values: Mapping[str, Fraction], tube: Tube, law: str | None = None) -> list[Segment]:
+def verified(
+    problem: Problem, values: Mapping[str, Fraction], tube: Tube, law: str | None = None
+) -> list[Segment]:
     """What the kernel says about the tube."""
     return verify_tube(read_statement(problem.statement()), law, values, tube.as_json())
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache, wraps
 from typing import Any, Generic, TypeVar, cast
@@ -29,20 +30,16 @@ class Undecided(Unsupported):
     """The constant coefficient does not decide on which side of a switch the series is."""
 
 
+@dataclass(eq=False, slots=True)
 class Series(Generic[Value]):
     """Coefficients 0, 1, .. as far as they are known. Without a rule it is a constant: the others are zero.
 
     literal: of a constant, the rational number that it is exactly; an exponent is looked at.
     """
 
-    __slots__ = ("literal", "rule", "terms")
-
-    def __init__(
-        self, terms: list[Value], rule: Rule[Value] | None = None, literal: Fraction | None = None
-    ) -> None:
-        self.terms = terms
-        self.rule = rule
-        self.literal = literal
+    terms: list[Value]
+    rule: Rule[Value] | None = None
+    literal: Fraction | None = None
 
     def at(self, k: int) -> Value | None:
         """Coefficient k; None is the zero of a constant's higher ones."""
@@ -71,7 +68,6 @@ class SeriesDomain(Domain[Series[Value]]):
         self.name = f"series over the {base.name}"
         self.moving: list[Series[Value]] = []
         self.known: dict[Any, Series[Value]] = {}
-        self._angles: dict[Series[Value], tuple[Series[Value], Series[Value]]] = {}
         self._number = cache(base.constant)
         self._zero = base.constant(Fraction(0))
 
@@ -103,8 +99,6 @@ class SeriesDomain(Domain[Series[Value]]):
                 return self.constant(FractionDomain().operation(op)(*known))
         return Series([self.base.operation(op)(*(a.terms[0] for a in args))])
 
-    # Sums of coefficients.
-
     def _term(self, a: Series[Value], k: int) -> Value:
         known = a.at(k)
         return self._zero if known is None else known
@@ -118,11 +112,9 @@ class SeriesDomain(Domain[Series[Value]]):
     def _scaled(self, factor: Fraction, a: Value) -> Value:
         return self.base.mul_(self._number(factor), a)
 
-    def _products(
-        self, a: Series[Value], b: Series[Value], k: int, first: int = 0, end: int | None = None
-    ) -> list[Value]:
-        """a_i b_(k-i) for i = first .. k or below end, those with a factor zero left out."""
-        pairs = [(a.at(i), b.at(k - i)) for i in range(first, k + 1 if end is None else end)]
+    def _products(self, a: Series[Value], b: Series[Value], k: int, first: int, end: int) -> list[Value]:
+        """a_i b_(k-i) for first <= i < end, those with a factor zero left out."""
+        pairs = [(a.at(i), b.at(k - i)) for i in range(first, end)]
         return [self.base.mul_(x, y) for x, y in pairs if x is not None and y is not None]
 
     # Arithmetic.
@@ -145,7 +137,7 @@ class SeriesDomain(Domain[Series[Value]]):
 
     @_once
     def mul_(self, a: Series[Value], b: Series[Value]) -> Series[Value]:
-        return self.made(lambda k: self._sum(self._products(a, b, k)))
+        return self.made(lambda k: self._sum(self._products(a, b, k, 0, k + 1)))
 
     @_once
     def sq_(self, a: Series[Value]) -> Series[Value]:
@@ -165,7 +157,7 @@ class SeriesDomain(Domain[Series[Value]]):
         def rule(k: int) -> Value:
             if k == 0:
                 return self.base.inv_(a.terms[0])
-            rest = self._sum(self._products(a, result, k, 1))
+            rest = self._sum(self._products(a, result, k, 1, k + 1))
             return self.base.neg_(self.base.mul_(result.terms[0], rest))
 
         result = self.made(rule)
@@ -210,8 +202,8 @@ class SeriesDomain(Domain[Series[Value]]):
             total = self._sum([self.base.mul_(x, y) for x, y in terms if y is not None])
             return self._scaled(Fraction(1, k), total)
 
-        result = self.made(rule)
-        later.append(slope(result))
+        result = self.known[(op, a, *constants)] = self.made(rule)
+        later.append(slope(result))  # which may ask for the function itself again, as cosine does for sine
         return result
 
     def _one(self) -> Series[Value]:
@@ -229,25 +221,13 @@ class SeriesDomain(Domain[Series[Value]]):
     def log_(self, a: Series[Value]) -> Series[Value]:
         return self._of("LOG", a, lambda _: self.inv_(a))
 
-    def _waves(self, a: Series[Value]) -> tuple[Series[Value], Series[Value]]:
-        """Sine and cosine: each has the other as its slope, the cosine with the sign turned."""
-        if a not in self._angles:
-            cosines: list[Series[Value]] = []
-
-            def cosine(sine: Series[Value]) -> Series[Value]:
-                cosines.append(self._of("COS", a, lambda _: self.neg_(sine)))
-                return cosines[0]
-
-            self._angles[a] = self._of("SIN", a, cosine), cosines[0]
-        return self._angles[a]
-
     @_once
     def sin_(self, a: Series[Value]) -> Series[Value]:
-        return self._waves(a)[0]
+        return self._of("SIN", a, lambda _: self.cos_(a))
 
     @_once
     def cos_(self, a: Series[Value]) -> Series[Value]:
-        return self._waves(a)[1]
+        return self._of("COS", a, lambda _: self.neg_(self.sin_(a)))
 
     def sinh_(self, a: Series[Value]) -> Series[Value]:
         grown = self.exp_(a)
