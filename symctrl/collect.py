@@ -33,7 +33,7 @@ from symctrl.problem import (
 )
 from symctrl.reach import Reach, pruned, with_motion
 from symctrl.records import Named, Rate, Record, Sum, Undefined
-from symctrl.statements import Definite, Equal, Nonzero
+from symctrl.statements import Definite, Equal, LaplacianBound, Nonzero
 from symctrl.structure import lowered
 from symctrl.written import StudyError
 
@@ -305,9 +305,9 @@ class Collector:
         elif isinstance(claim, Bound):
             self.add(listing, [claim.expr])
             self._each("positive" if claim.strict else "nonnegative", listing, claim.expr, written, about)
-        elif isinstance(claim, Nonzero):
+        elif isinstance(claim, Nonzero | LaplacianBound):
             self.add(listing, [claim.expr])
-            self._each("nonzero", listing, claim.expr, written, about)
+            self._each(claim.kind, listing, claim.expr, written, about)
         elif isinstance(claim, Definite):
             self.add(listing, [claim.matrix])
             n = claim.matrix.shape[0]

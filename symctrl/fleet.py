@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
 from symctrl.context import current, graph_is_used
-from symctrl.expr import Expr, deferred, lift, symbol
+from symctrl.expr import Expr, Liftable, deferred, lift, symbol
 from symctrl.latex import latex
 from symctrl.quaternion import Quaternion
 from symctrl.records import Sum, fingerprint, letters
+from symctrl.statements import LaplacianBound
 
 if TYPE_CHECKING:
     import networkx as nx
@@ -158,6 +159,10 @@ class Fleet:
                 )
             label, tex, total = f"sum_{fingerprint(body)}.i", rf"\sum_{{j}} {_bracketed(body)}", False
         return deferred(Sum(label, tex, body, total), body.shape)
+
+    def eigenvalues_at_most(self, bound: Liftable) -> LaplacianBound:
+        """The assumption that no eigenvalue of the graph's Laplacian exceeds a scalar of parameters."""
+        return LaplacianBound(lift(bound))
 
     def degree(self, node: Node) -> Expr:
         """The number of neighbours of node i."""

@@ -68,6 +68,23 @@ class Nonzero(Statement):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class LaplacianBound(Statement):
+    """Every eigenvalue of the Laplacian of the fleet's graph is at most the scalar: an assumption."""
+
+    expr: Expr
+
+    @property
+    def kind(self) -> str:
+        return "laplacian_bound"
+
+    def latex(self) -> str:
+        return rf"\lambda_{{\max}}(L) \le {latex(self.expr)}"
+
+    def text(self) -> str:
+        return f"no eigenvalue of the Laplacian exceeds {text(self.expr)}"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Conforms(Statement):
     """The expression is well formed: all that a definition or a law claims."""
 

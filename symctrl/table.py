@@ -16,6 +16,7 @@ from rich.text import Text
 from symctrl.rows import Report, Row
 
 MARKS = {"proved": "✓", "refuted": "✗", "ill-formed": "≠", "undecided": "?"}
+ARGUMENT = ("step", "obligation", "fact")  # rows of a theorem's arguments, not claims of their own
 _STYLES = {"proved": "green", "refuted": "red", "ill-formed": "magenta", "undecided": "yellow"}
 _HEADS = ("equation", "id", "form", "verdict", "stands", "time")
 _GAP = "  "
@@ -31,10 +32,15 @@ def show(
     numbered: how many items the paper numbers, where the study says so.
     """
     width = console.width if console.is_terminal else None
-    lines = _tree(report) if tree else _table(report.rows, width)
+    lines = _tree(report) if tree else _table([row for row in report.rows if _is_told(row)], width)
     findings = _findings(report.rows, width)
     for line in (*lines, *findings, *_summary(report, numbered, strict), Text()):
         console.print(line, soft_wrap=True)
+
+
+def _is_told(row: Row) -> bool:
+    """Is the row in the table? An obligation that is met is in the tree and in the JSON."""
+    return row.form != "obligation" or row.verdict != "proved"
 
 
 def _table(rows: Sequence[Row], width: int | None) -> Iterator[Text]:
@@ -145,7 +151,8 @@ def _branch(name: str, rows: dict[str, Row], shown: set[str], depth: int) -> Ite
     verdict = (f"{MARKS[row.verdict]} {row.verdict}", _STYLES[row.verdict])
     stands = {"yes": "", "if": ", stands conditionally", "no": ", does not stand"}[_stands(row)]
     again = ", as above" if name in shown and row.rests_on else ""
-    yield Text.assemble(f"{indent}{row.equation} {name}: ", verdict, stands, again)
+    said = f" {row.statement}" if row.form == "step" else ""
+    yield Text.assemble(f"{indent}{row.equation} {name}:{said} ", verdict, stands, again)
     if name not in shown:
         shown.add(name)
         for below in row.rests_on:
@@ -153,14 +160,23 @@ def _branch(name: str, rows: dict[str, Row], shown: set[str], depth: int) -> Ite
 
 
 def _summary(report: Report, numbered: int, strict: bool) -> Iterator[Text]:
-    count = Counter(row.verdict for row in report.rows)
+    claims = [row for row in report.rows if row.form not in ARGUMENT]
+    count = Counter(row.verdict for row in claims)
     verdicts = ", ".join(f"{count[verdict]} {verdict}" for verdict in MARKS if count[verdict]) or "no claims"
-    stand = sum(row.stands for row in report.rows)
-    conditional = sum(row.stands and row.conditional for row in report.rows)
+    stand = sum(row.stands for row in claims)
+    conditional = sum(row.stands and row.conditional for row in claims)
     under = f" ({conditional} conditionally)" if conditional else ""
     graph = f" on {report.graph}" if report.graph else ""
-    head = f"{report.study}{graph}: {verdicts}; {stand} of {len(report.rows)} stand{under}"
+    head = f"{report.study}{graph}: {verdicts}; {stand} of {len(claims)} stand{under}"
     yield Text(head, style="bold")
+    lines = [row for row in report.rows if row.form == "step"]
+    if lines:
+        met = sum(row.verdict == "proved" for row in lines)
+        obligations = [row for row in report.rows if row.form == "obligation"]
+        proved = sum(row.verdict == "proved" for row in obligations)
+        yield Text(
+            f"arguments of theorems: {met} of {len(lines)} lines, {proved} of {len(obligations)} obligations"
+        )
     if numbered:
         missing = f"; missing: {', '.join(report.missing)}" if report.missing else ""
         entered = numbered - len(report.missing)

@@ -13,7 +13,7 @@ from symctrl.bounds import Bound, Statement, claimed
 from symctrl.expr import Comparison, Expr, lift
 from symctrl.facts import Fact, point
 from symctrl.quaternion import Quaternion
-from symctrl.statements import Definite, Equal, Nonzero
+from symctrl.statements import Definite, Equal, LaplacianBound, Nonzero
 from symctrl.text import text
 from symctrl.written import Definition, Law
 
@@ -84,7 +84,7 @@ def claim(given: Any = (), then: Any = (), laws: Any = None) -> Theorem:
             suppose.append(plain)
         elif isinstance(plain, About):
             assumptions.append(plain)
-        elif isinstance(plain, Equal | Bound | Definite | Nonzero):
+        elif isinstance(plain, Equal | Bound | Definite | Nonzero | LaplacianBound):
             assumptions.append(About(plain, "parameter"))
         else:
             raise TypeError(f"given: an assumption is an equation, a bound, .. or a fact, not {one!r}")
@@ -331,6 +331,6 @@ def _laws(laws: Any) -> tuple[Law, ...] | None:
 
 def _plain(claim: Any, what: str) -> Statement:
     plain = claimed(claim)
-    if not isinstance(plain, Equal | Bound | Definite | Nonzero):
+    if not isinstance(plain, Equal | Bound | Definite | Nonzero | LaplacianBound):
         raise TypeError(f"{what} takes an equation, a bound or nonzero(x), not {claim!r}")
     return plain

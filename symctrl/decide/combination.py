@@ -19,8 +19,9 @@ import numpy as np
 
 from symctrl.decide.definiteness import decide_matrix
 from symctrl.decide.forms import forms_in
+from symctrl.decide.identity import vanishes
 from symctrl.decide.session import Session
-from symctrl.domains.field import Exact, Poly
+from symctrl.domains.field import Exact, Poly, coefficient
 
 MAX_CANDIDATES = 1500
 MAX_MONOMIALS = 400
@@ -57,10 +58,12 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     """
     if known.times is not None:
         return _scaled_entry(session, value, strict, known, [known.times])
+    if session.totals:
+        return {"terms": []} if not strict and vanishes(session, value) else None
     terms = terms_of(session, value, strict, known)
     if terms is not None:
         return {"terms": terms}
-    found = _by_fact(session, value, strict)
+    found = _by_fact(session, value, strict) or (None if strict else _by_scaled_completion(session, value, known))
     for times in _multipliers(session) if found is None else ():
         found = found or _scaled_entry(session, value, strict, known, times)
     return found
@@ -122,7 +125,8 @@ def terms_of(
     if p.is_zero():
         return None if strict else []
     found = _by_factors(session, p, strict) or (_by_squares(session, p) if not strict else None)
-    found = found or _by_forms(session, p, strict, known)
+    found = found or _by_forms(session, p, strict, known) or _by_completion(session, p, strict, known)
+    found = found or (_by_open_factor(session, p, known) if not strict else None)
     for wide in (False, True):
         found = found or _by_programme(session, p, strict, _candidates(session, p, known, wide))
     return found
@@ -168,6 +172,28 @@ def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | No
     return [[str(c), known, squares]]
 
 
+def _by_open_factor(session: Session, p: Poly, known: Known) -> list[list[Any]] | None:
+    """Factors of known sign and squares apart, the sign of what is left is that of p."""
+    field, signs = session.domain.field, session.domain.signs
+    c, exponents = session.domain.factor_polynomial(p)
+    outside: list[Any] = []
+    squares: list[Any] = []
+    left = field.polynomial(1 if c > 0 else -1)
+    for k, e in sorted(exponents.items()):
+        f = field.factors[k]
+        if signs.of(f) in ("positive", "nonnegative"):
+            outside += [field.json(f)] * e
+            continue
+        squares += [field.json(f ** (e // 2))] if e > 1 else []
+        left = left * f if e % 2 else left
+    if not (outside or squares) or left.is_constant():
+        return None
+    terms = terms_of(session, session.domain.polynomial(left), False, known)
+    if terms is None:
+        return None
+    return [[str(Fraction(w) * abs(c)), [*outside, *given], [*squares, *own]] for w, given, own in terms]
+
+
 def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
     """p as a quadratic form in monomials of degree at most one, if its exact LDLᵀ has no negative pivot."""
     field = session.domain.field
@@ -201,6 +227,57 @@ def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
             )
         result.append([str(d), [], [field.json(square)]])
     return result
+
+
+def _by_completion(session: Session, p: Poly, strict: bool, known: Known) -> list[list[Any]] | None:
+    """A completed square a (x + b)^2, with a known to be positive, and the rest without x."""
+    field, signs = session.domain.field, session.domain.signs
+    for k in sorted(field.occurring(p)):
+        if signs.generator.get(k) is not None or field.generators[k].kind != "free":
+            continue
+        a, b = (_coefficient(session, p, k, power) for power in (2, 1))
+        if a.is_zero() or p.degrees()[field.size - 1 - k] != 2 or signs.of(a) != "positive":
+            continue
+        half, rest = divmod(b, 2 * a)
+        if not rest.is_zero():
+            continue
+        square = field.variable(k) + half
+        left = p - a * square * square
+        terms = terms_of(session, session.domain.polynomial(left), strict, known)
+        if terms is not None:
+            number = a.is_constant()
+            c, factors = (str(coefficient(a)), []) if number else ("1", [field.json(a)])
+            return [[c, factors, [field.json(square)]], *terms]
+    return None
+
+
+def _by_scaled_completion(session: Session, value: Exact, known: Known) -> dict[str, Any] | None:
+    """4 a (a x^2 + b x + c) = (2 a x + b)^2 + (4 a c - b^2), with a known to be positive."""
+    field, signs = session.domain.field, session.domain.signs
+    p = field.normal(session.carrier(value))
+    for k in sorted(field.occurring(p)) if not p.is_zero() else ():
+        if signs.generator.get(k) is not None or field.generators[k].kind != "free":
+            continue
+        a, b, c = (_coefficient(session, p, k, power) for power in (2, 1, 0))
+        if a.is_zero() or b.is_zero() or p.degrees()[field.size - 1 - k] != 2 or signs.of(a) != "positive":
+            continue
+        terms = terms_of(session, session.domain.polynomial(4 * a * c - b * b), False, known)
+        if terms is not None:
+            square = 2 * a * field.variable(k) + b
+            return {"times": [field.json(4 * a)], "terms": [["1", [], [field.json(square)]], *terms]}
+    return None
+
+
+def _coefficient(session: Session, p: Poly, k: int, power: int) -> Poly:
+    """The coefficient of a power of a generator."""
+    field = session.domain.field
+    column = field.size - 1 - k
+    kept = {
+        tuple(0 if v == column else int(x) for v, x in enumerate(e)): c
+        for e, c in p.terms()
+        if e[column] == power
+    }
+    return field.context.from_dict(kept)
 
 
 def _by_programme(

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
 
@@ -85,6 +85,8 @@ def admissible(problem: Problem, place: Place) -> str | None:
         nodes = list(place.neighbours) or [""]
         for node in nodes if _at_nodes(problem, assumption) else nodes[:1]:
             values = [at.output(of, {"i": node} if node else {}) for of in assumption.of]
+            if assumption.kind == "laplacian_bound":
+                values, assumption = _laplacian_below(place, values[0], assumption)
             if not _holds(assumption, values):
                 return assumption.text
     return None
@@ -191,6 +193,13 @@ def _holds(assumption: Assumption, values: list[Fraction]) -> bool:
     return answer == "positive definite" or (
         answer != "not positive semidefinite" and "semi" in assumption.kind
     )
+
+
+def _laplacian_below(place: Place, bound: Fraction, of: Assumption) -> tuple[list[Fraction], Assumption]:
+    """That the eigenvalues of the graph's Laplacian L are at most b, as b I - L positive semidefinite."""
+    at = place.neighbours
+    entries = [bound - len(at[a]) if a == b else Fraction(b in at[a]) for a in at for b in at]
+    return entries, replace(of, kind="positive_semidefinite", size=len(at))
 
 
 def _between(problem: Problem) -> dict[str, tuple[Fraction | None, Fraction | None]]:

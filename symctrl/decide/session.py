@@ -173,6 +173,8 @@ class Session:
     def _learn(self, assumption: Assumption, binding: dict[str, str]) -> None:
         values = [self.at(of, binding) for of in assumption.of]
         domain = self.domain
+        if assumption.kind == "laplacian_bound":
+            return
         if assumption.kind.startswith("positive_"):
             rows = [values[r :: assumption.size] for r in range(assumption.size)]
             self._learn_minors(rows, "positive" if assumption.kind == "positive_definite" else "nonnegative")

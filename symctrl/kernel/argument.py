@@ -188,6 +188,41 @@ class Argument:
         _, domain = self._reading()
         return domain.free(name).bounded
 
+    def is_total_of_square(self, total: str, quantity: str) -> bool:
+        """Is `total` the sum over nodes of the square of a quantity at a node, or over nodes and neighbours of
+        that of one at both?"""
+        walk, domain = self._reading()
+        of = self._summed(total, "total")
+        binding = {"i": "i"}
+        if of is not None and "j" in self.statement.listings[quantity].letters:
+            of, binding = self._summed(of, "sum"), {"i": "i", "j": "j"}
+        if of is None or self.statement.listings[of].letters - set(binding):
+            return False
+        inner: Traits = walk.output((of, 0), binding, 0, self.law)
+        e: Traits = walk.output((quantity, 0), binding, 0, self.law)
+        return inner.key == domain.mul(e, e).key
+
+    def is_total_of(self, total: str, quantity: str) -> bool:
+        """Is `total` the sum over nodes of a quantity at a node?"""
+        walk, _ = self._reading()
+        of = self._summed(total, "total")
+        if of is None or self.statement.listings[quantity].letters - {"i"}:
+            return False
+        inner: Traits = walk.output((of, 0), {"i": "i"}, 0, self.law)
+        return inner.key == self.traits(quantity).key
+
+    def _summed(self, listing: str, kind: str) -> str | None:
+        """The listing of one output that a listing sums, if a sum is all that it is."""
+        code = self.statement.listings[listing].code
+        meaning = self.statement.names.get(_starred(code[0].name)) if len(code) == 1 else None
+        if meaning is None or meaning.kind != kind or len(self.statement.listings[meaning.of[0]].outputs) != 1:
+            return None
+        return meaning.of[0]
+
+    def require_total(self, total: str, quantity: str) -> None:
+        fits = self.is_total_of_square(total, quantity)
+        self.require("the total is that of the square", fits, f"{total} is not the sum of the squares of {quantity}")
+
     def rate_is_bounded(self, quantity: str, order: int = 1) -> bool:
         return self.traits(rate_listing(quantity, order)).bounded
 
@@ -199,7 +234,7 @@ class Argument:
         stamp = len(self.facts), len(self.statement.listings)
         if self._stamp != stamp:
             domain = Reading(
-                lambda key: ("bounded", key) in self.facts,
+                lambda key: ("bounded", key) in self.facts or ("tends", key) in self.facts,
                 lambda key: ("apart", key) in self.facts,
                 self._is_parameter,
             )

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from symctrl.kernel import combination, conforms, definite, identity, squeeze, theorem, witness
+from symctrl.kernel import combination, conforms, definite, identity, squeeze, theorem, total, witness
 from symctrl.kernel.certificate import Declined, Invalid, Refused
 from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
 from symctrl.kernel.printing import line, print_statement
@@ -28,6 +28,8 @@ PROOFS: dict[str, Rules] = {
     "conforms": conforms.needed_conditions,
     "witness": witness.needed_conditions,
     "squeeze": squeeze.needed_conditions,
+    "each": total.needed_conditions_each,
+    "spectral": total.needed_conditions_spectral,
     "argument": theorem.needed_conditions,
 }
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}

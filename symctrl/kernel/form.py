@@ -40,7 +40,7 @@ from symctrl.kernel.values import (
 MAX_INSTRUCTIONS = 2_000_000
 MAX_SIZE = 10_000  # rows or columns of a claim
 SCALAR_KINDS = ("state", "parameter", "input", "signal")
-SIGN_KINDS = ("zero", "nonzero", "positive", "nonnegative")
+SIGN_KINDS = ("zero", "nonzero", "positive", "nonnegative", "laplacian_bound")
 DEFINITE_KINDS = ("positive_definite", "positive_semidefinite")
 WORDS = (
     "exists",

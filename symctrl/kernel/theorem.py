@@ -18,7 +18,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
-from symctrl.kernel import combination, definite, identity, squeeze
+from symctrl.kernel import combination, definite, identity, squeeze, total
 from symctrl.kernel.argument import Argument, Obligation, extended
 from symctrl.kernel.certificate import Declined, Invalid, fields, natural, typed
 from symctrl.kernel.closure import Reach
@@ -52,6 +52,8 @@ POINTWISE: dict[str, Callable[[Statement, dict[str, Any]], set[Condition]]] = {
     "combination": combination.needed_conditions,
     "definite": definite.needed_conditions,
     "squeeze": squeeze.needed_conditions,
+    "each": total.needed_conditions_each,
+    "spectral": total.needed_conditions_spectral,
 }
 TABLES = ("listings", "names", "scalars", "motion", "laws")
 MAX_LINES = 1000

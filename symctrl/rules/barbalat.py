@@ -33,13 +33,26 @@ def _one(chain: Chain, e: str, what: What) -> bool:
 def _tables(chain: Chain, e: str, what: What) -> Iterator[dict[str, Any]]:
     given = [chain.q(what["of"])] if what["of"] is not None else []
     reads = chain.at.traits(e).reads
-    summable = given or [W for W in chain.having("summable") if chain.at.traits(W).reads & reads]
+    summable = given or [W for W in chain.having("summable") if chain.at.traits(W).reads & reads or not reads]
     rate = {"rate": chain.q(what["rate"])} if what["rate"] is not None else {}
     power = what["power"]
     for W in summable:
+        over_nodes = carries.speaks_of_all(chain, W) and not carries.speaks_of_all(chain, e)
+        if over_nodes:
+            yield from _over_nodes(chain, e, W, what["least"], rate)
         for words in [_power(chain, power)] if power is not None else [{"power": "2"}, {"power": "1"}]:
             for least in _factors(chain, W, e, words, what["least"]):
                 yield {"e": e, "W": W} | words | rate | ({"least": least} if least else {})
+
+
+def _over_nodes(
+    chain: Chain, e: str, W: str, least: Any, rate: Mapping[str, str]
+) -> Iterator[dict[str, Any]]:
+    """W bounds the sum over all nodes of the square."""
+    total = carries.total_of(chain, e)
+    factors = [chain.q(least)] if least is not None else [None, *carries.products(chain)]
+    for factor in factors:
+        yield {"e": e, "W": W, "power": "total", "total": total} | rate | ({"least": factor} if factor else {})
 
 
 def _factors(chain: Chain, W: str, e: str, words: Mapping[str, str], least: Any) -> list[str | None]:

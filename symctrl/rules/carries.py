@@ -6,16 +6,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from symctrl.expr import Expr, lift
+from symctrl.entries import component_names
+from symctrl.expr import Expr, lift, symbol
 from symctrl.facts import SETS, Fact
 from symctrl.graph import Instruction, Tape
 from symctrl.kernel.compose import composed
 from symctrl.kernel.values import Sentence
+from symctrl.problem import split
+from symctrl.records import Sum
 from symctrl.rules.algebra import Algebra, algebra
 from symctrl.rules.chain import Chain
 from symctrl.rules.combination import combinations
 from symctrl.rules.loop import tape_of
 from symctrl.rules.tapes import bare, single
+from symctrl.written import StudyError
 
 What = Mapping[str, Any]
 MAX_INSIDE = 12
@@ -73,9 +77,45 @@ def _hinted(chain: Chain, word: str, name: str, hints: Mapping[str, Any]) -> boo
         "apart": ("square", None),
     }[word]
     table = {"word": word, "how": how, "e": name} | more | ({"by": of} if of is not None else {})
+    if how == "square" and by and speaks_of_all(chain, by[0]) and not speaks_of_all(chain, name):
+        table |= {"total": total_of(chain, name)}
     if "least" in more or not chain.attempt("carries", table):
         return chain.run("carries", table)
     return True
+
+
+def speaks_of_all(chain: Chain, name: str) -> bool:
+    """Has the quantity a sum over all nodes in it?"""
+    code = chain.at.statement.listings[name].code
+    names = chain.at.statement.names
+    return any(step.op == "INPUT" and step.name in names and names[step.name].kind == "total" for step in code)
+
+
+def total_of(chain: Chain, name: str, power: int = 2) -> str:
+    """The sum over all nodes, and neighbours where it speaks of them, of a power of a quantity."""
+    fleet = chain.loop.study.of_fleet
+    assert fleet is not None
+    e = shown(chain, name)
+    summand = e * e if power == 2 else e
+    if "j" in chain.at.statement.listings[name].letters:
+        summand = fleet.sum(fleet.neighbour, summand)
+    return chain.q(fleet.sum(fleet.node, summand))
+
+
+def shown(chain: Chain, name: str) -> Expr:
+    """The quantity as an expression; one that is a tape is a symbol alone."""
+    known = chain.loop.quantities[name]
+    if known is not None:
+        return known
+    (step,) = chain.at.statement.listings[name].code
+    base, _, index = split(step.name)
+    for declared in chain.loop.study.symbols.values():
+        label = declared.expr.args[0].replace(".*", ".i")
+        names = component_names(label, declared.expr.shape, declared.expr.args[2])
+        if step.name in names:
+            whole = symbol(label, declared.expr.shape, None, declared.expr.args[2])
+            return whole if whole.shape == (1, 1) else list(whole)[names.index(step.name)]
+    raise StudyError(f"{base}{index} is no symbol of {chain.loop.study.name}")
 
 
 def ensure(chain: Chain, word: str, name: str) -> bool:
@@ -178,6 +218,8 @@ def tends(chain: Chain, name: str) -> bool:
         if "input" in table and not chain.at.has("tends", table["V"]) and table["input"] != name:
             ensure(chain, "tends", table["input"])
             chain.attempt(rule, table)
+    if _sum_of_small(chain, name):
+        return True
     decaying = chain.having("tends") + chain.having("exponentially")
     for V in [V for V in dict.fromkeys(decaying) if _shares(chain, V, name)]:
         for least in (None, *squares_in(chain, V, name)):
@@ -186,6 +228,17 @@ def tends(chain: Chain, name: str) -> bool:
                 return True
     combinations(chain, [name])
     return chain.at.has("tends", name)
+
+
+def _sum_of_small(chain: Chain, name: str) -> bool:
+    """A sum over all nodes, of a term that tends to zero at each."""
+    known = chain.loop.quantities.get(name)
+    record = known.args[0] if known is not None and known.op == "deferred" else None
+    if not isinstance(record, Sum) or not record.total:
+        return False
+    term = chain.q(record.body)
+    ensure(chain, "tends", term)
+    return chain.attempt("carries", {"word": "tends", "how": "sum", "e": name, "by": term})
 
 
 def summable(chain: Chain, name: str) -> bool:
@@ -307,7 +360,7 @@ def bounded_reads(chain: Chain, listing: str) -> None:
     """Carry boundedness over to what a listing reads, states and signals."""
     for name in sorted(chain.at.traits(listing).reads):
         if not chain.at.free_is_bounded(name):
-            bounded(chain, chain.q(bare(name)))
+            bounded(chain, chain.q(bare(name.replace(".j", ".i"))))
 
 
 def bounded_states(chain: Chain) -> None:
@@ -319,7 +372,7 @@ def bounded_states(chain: Chain) -> None:
             continue
     for rate in chain.at.field().values():
         for name in sorted(n for n in rate.reads if chain.at.is_signal(n) and not chain.at.free_is_bounded(n)):
-            bounded(chain, chain.q(bare(name)))
+            bounded(chain, chain.q(bare(name.replace(".j", ".i"))))
     left = [names[state] for state in names if not chain.at.state_is_bounded(state)]
     if left:
         forms(chain, left)
@@ -424,6 +477,16 @@ def factors(chain: Chain) -> list[str]:
             if chain.at.statement.scalars.get(step.name) == "parameter":
                 found.append(chain.q(Tape((Instruction("INPUT", name=step.name),), (0,))))
     return found
+
+
+def products(chain: Chain) -> list[str]:
+    """The positive parameters and their products in pairs, as constants to try."""
+    own = factors(chain)
+    listings = chain.at.statement.listings
+    tapes = [
+        tape_of(composed(listings, ["a b *"], {"a": a, "b": b})) for k, a in enumerate(own) for b in own[k:]
+    ]
+    return [*own, *(chain.q(tape) for tape in tapes)]
 
 
 def offsets(chain: Chain, name: str) -> Iterator[str]:

@@ -22,6 +22,7 @@ from symctrl.kernel.theorem import proved
 from symctrl.kernel.values import Condition
 from symctrl.problem import Claim, Meaning, Problem
 from symctrl.reach import pruned
+from symctrl.rules import totals
 from symctrl.rules.loop import assumption_of, tape_of
 
 NO_MEANING = (Unsupported, NowhereDefined, NotDifferentiable, NoRate, NoPoint)
@@ -109,6 +110,8 @@ class Seeker:
         numbers = tuple(own.index(a) for a in problem.given)
         try:
             proof = PROVERS[problem.claim.kind](problem)
+            if proof is None and problem.claim.kind == "nonnegative" and totals.speaks_of_totals(problem):
+                numbers, proof = self._of_totals(at, obligation, usable, numbers)
         except NO_MEANING as error:
             return Outcome(obligation.role, False, str(error), problem)
         reason = "no proof was found"
@@ -125,6 +128,24 @@ class Seeker:
         if not self.thorough:
             return Outcome(obligation.role, False, reason, problem, numbers)
         return self._refuted(obligation, problem, numbers, reason)
+
+    def _of_totals(
+        self, at: Argument, obligation: Obligation, usable: Sequence[kernel.Assumption], numbers: tuple[int, ...]
+    ) -> tuple[tuple[int, ...], Any]:
+        """A proof node by node, or mode by mode without the equations about states."""
+        statement = at.composed(obligation, [usable[k] for k in numbers])
+        proof = totals.each(statement, self.problem)
+        if proof is not None:
+            return numbers, proof
+        plain = tuple(k for k, a in enumerate(usable) if a.kind != "zero" and not at.reads_states(a))
+        statement = at.composed(obligation, [usable[k] for k in plain])
+        problem = self.problem(statement, statement.given)
+        own = [assumption_of(usable[k]) for k in plain]
+        kept = tuple(plain[own.index(a)] for a in problem.given)
+        bounds = [k for k in plain if usable[k].kind == "laplacian_bound" and k not in kept]
+        chosen = tuple(sorted({*kept, *bounds}))
+        statement = at.composed(obligation, [usable[k] for k in chosen])
+        return chosen, totals.spectral(statement, problem, self.problem)
 
     def _refuted(self, obligation: Obligation, problem: Problem, numbers: tuple[int, ...], reason: str) -> Outcome:
         try:

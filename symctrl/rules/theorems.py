@@ -145,12 +145,38 @@ def refuse_assumed_conclusions(loop: Loop, id_: str) -> None:
 
 def rows_of(tried: Tried, id_: str, equation: str) -> Iterator[Row]:
     """A row for each line, and for each of its obligations."""
+    start = f"{id_}/{tried.entry.id}/0"
+    begin = list(_obligations(tried.begin, start, equation, "begin"))
+    if begin:
+        yield _begin(tried, start, equation, [row.id for row in begin])
+        yield from begin
     for n, done in enumerate(tried.lines, start=1):
         line_id = f"{id_}/{tried.entry.id}/{n}"
         obligations = list(_obligations(done.outcomes, line_id, equation, done.line.rule))
         yield _step(done, line_id, n, equation, tuple(row.id for row in obligations), tried)
         yield from obligations
-    yield from _obligations(tried.begin, f"{id_}/{tried.entry.id}/0", equation, "begin")
+
+
+def _begin(tried: Tried, line_id: str, equation: str, below: Sequence[str]) -> Row:
+    """What every argument asks first: that assumed equations about states are kept."""
+    unmet = tuple(f"{line_id}/{o.role}" for o in tried.begin if not o.met)
+    return Row(
+        id=line_id,
+        equation=equation,
+        statement="before line 1: equations about states are kept",
+        latex="",
+        form="step",
+        corrects=None,
+        kind="step",
+        verdict="undecided" if unmet else "proved",
+        stands=False,
+        conditional=False,
+        reason=next((f"{o.role}: {o.reason}" for o in tried.begin if not o.met), ""),
+        method="rule",
+        rule="begin",
+        rests_on=tuple(below),
+        unmet=unmet,
+    )
 
 
 def _step(done: Done, line_id: str, n: int, equation: str, below: Sequence[str], tried: Tried) -> Row:

@@ -6,7 +6,9 @@ Theorems, for every solution, with constants a > 0, d != 0 and k:
 bounded. e is bounded where it is composed of what is bounded (`traits`); where a e^2 <= k + V_1 + .. with
 bounded V; where e'P e <= k + V_1 + .. with a constant positive definite P (every component is); where its
 rate has a finite integral. tends. e tends to zero where d e = c_1 z_1 + .. with z that tend to zero and
-bounded c; where a e^2 <= V and V tends to zero. summable. e is summable where a |e| <= W_1 + .. with summable
+bounded c; where a e^2 <= V and V tends to zero. For a fleet, a sum over all nodes (and neighbours) of squares takes the place of the square, and is not less than
+it; and the sum over all nodes of what tends to zero at each node tends to zero.
+summable. e is summable where a |e| <= W_1 + .. with summable
 W. exponentially. |e| decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2
 >= k > 0. sets. Where V <= r or V = 0 is reached, kept, .., so is every set that contains it.
 
@@ -45,7 +47,7 @@ def _square(at: Argument, of: Roles) -> None:
     """a e^2 <= k + V_1 + ..."""
     e, bounds, offset, least = of.one("e"), of.many("by"), of.maybe("offset"), of.maybe("least")
     formula, roles = _sum(at, "bounded", bounds, offset)
-    formula, more = _less_square(at, formula, e, least)
+    formula, more = _less_square(at, formula, e, least, of.maybe("total"))
     at.prove("the square is bounded", "nonnegative", formula, **roles, **more)
     at.learn("bounded", e)
 
@@ -73,7 +75,8 @@ def _by_rate(at: Argument, of: Roles) -> None:
     e, S = of.one("e"), of.one("by")
     at.require_differentiable("e is differentiable", e)
     at.need("the bound of the rate is summable", "summable", S)
-    at.prove("S bounds the rate of e", "nonnegative", ["S e' -", "S e' +"], S=S, e=e)
+    at.prove("S bounds the rate of e", "nonnegative", "S e' -", S=S, e=e)
+    at.prove("S bounds minus the rate of e", "nonnegative", "S e' +", S=S, e=e)
     at.learn("bounded", e)
 
 
@@ -111,21 +114,28 @@ def _under(at: Argument, of: Roles) -> None:
     e, V, least = of.one("e"), of.one("by"), of.maybe("least")
     decaying = ("exists", "") in at.facts and at.has("exponentially", V)
     at.require("V tends to zero", decaying or at.has("tends", V), f"{V} is not known to tend to zero")
-    formula, roles = _less_square(at, "V", e, least)
+    formula, roles = _less_square(at, "V", e, least, of.maybe("total"))
     at.prove("the square is below V", "nonnegative", formula, V=V, **roles)
     at.learn("tends", e)
+
+
+def _sum_of_small(at: Argument, of: Roles) -> None:
+    """The sum over nodes of what tends to zero at each."""
+    total, e = of.one("e"), of.one("by")
+    at.need("the term tends to zero", "tends", e)
+    at.require("e is the sum over nodes", at.is_total_of(total, e), f"{total} is not the sum over nodes of {e}")
+    at.learn("tends", total)
 
 
 def _summable(at: Argument, of: Roles) -> None:
     e, parts, least = of.one("e"), of.many("by"), of.maybe("least")
     formula, roles = _sum(at, "summable", parts, None)
-    if least is None:
-        upper, lower = f"{formula} e -", f"{formula} e +"
-    else:
+    bound = "e"
+    if least is not None:
         _positive(at, least)
-        upper, lower = f"{formula} e a * -", f"{formula} e a * +"
-        roles |= {"a": least}
-    at.prove("the parts bound e", "nonnegative", [upper, lower], e=e, **roles)
+        bound, roles = "e a *", roles | {"a": least}
+    at.prove("the parts bound e", "nonnegative", f"{formula} {bound} -", e=e, **roles)
+    at.prove("the parts bound minus e", "nonnegative", f"{formula} {bound} +", e=e, **roles)
     at.learn("summable", e)
 
 
@@ -139,6 +149,16 @@ def _rate(at: Argument, of: Roles) -> None:
     at.prove("the rate is half that of V", "equal", ["h 2 *", "r"], h=half, r=full)
     for key in at.keys(e):
         at.facts |= {("exponentially", key), ("exponentially", f"{key} {at.traits(half).key}")}
+
+
+def _apart_as_multiple(at: Argument, of: Roles) -> None:
+    """e = c z."""
+    e, z, c = of.one("e"), of.one("by"), of.one("times")
+    at.need("z stays apart from zero", "apart", z)
+    at.require_constant("the factor is constant", c)
+    at.prove("the factor is not zero", "positive", "c c *", c=c)
+    at.prove("e is the multiple", "equal", ["e", "c z *"], e=e, c=c, z=z)
+    at.learn("apart", e)
 
 
 def _apart(at: Argument, of: Roles) -> None:
@@ -183,11 +203,18 @@ def _sum(at: Argument, word: str, parts: list[str], offset: str | None) -> tuple
     return formula, roles
 
 
-def _less_square(at: Argument, formula: str, e: str, least: str | None) -> tuple[str, dict[str, str]]:
+def _less_square(
+    at: Argument, formula: str, e: str, least: str | None, total: str | None = None
+) -> tuple[str, dict[str, str]]:
+    """The formula less a e^2, or less a times the sum over all nodes of e^2."""
+    square, roles = "e e *", {"e": e}
+    if total is not None:
+        at.require_total(total, e)
+        square, roles = "T", {"T": total}
     if least is None:
-        return f"{formula} e e * -", {"e": e}
+        return f"{formula} {square} -", roles
     _positive(at, least)
-    return f"{formula} e e * a * -", {"e": e, "a": least}
+    return f"{formula} {square} a * -", roles | {"a": least}
 
 
 def _positive(at: Argument, quantity: str) -> None:
@@ -207,6 +234,8 @@ WAYS: dict[tuple[str, str], Callable[[Argument, Roles], None]] = {
     ("bounded", "combination"): _bounded_combination,
     ("tends", "combination"): _small_combination,
     ("tends", "square"): _under,
+    ("tends", "sum"): _sum_of_small,
+    ("apart", "multiple"): _apart_as_multiple,
     ("summable", "parts"): _summable,
     ("exponentially", "square"): _rate,
     ("apart", "square"): _apart,

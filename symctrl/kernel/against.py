@@ -1,0 +1,298 @@
+"""A refutation of a theorem: one solution that meets what is given and contradicts one conclusion.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem: a theorem is a claim about all parameters, signals, graphs and solutions that meet what is given, and
+about each of its conclusions and that solutions exist for all time, which every theorem concludes. It is
+false where one of them meets all that is given and contradicts one of these.
+
+at: where all rates are zero the constant function is a solution. Where a switch is at its jump, the field is
+f + s g + .. for its active switches s, f and g continuous; if the gradients of their arguments, by states that
+no assumed equation speaks of, are independent, every sign of all of them occurs near the point on an open set,
+so that for any s in [-1, 1] the value is one of Filippov's (Differential Equations with Discontinuous Righthand
+Sides, 1988, section 4).
+leaves: g = 0 and g' < 0 for every value of the active switches; all of Filippov's values are convex
+combinations of these, and his set is upper semicontinuous: so g' < 0 for some time along every solution.
+undefined: a solution needs a field that has a value where it begins.
+unstable, along and enclosed: `instability`, `trajectory`, `enclosed`.
+
+Proof fields: `how`; `then`, the conclusion from 0, or "exists"; and by `how`:
+at {values, graph, switches}, leaves and undefined {values, graph}, unstable {values}: numbers of all free
+scalars, `graph` for fleets alone as in `witness`; `switches`, the values of the active switches in the order
+in which the rates meet them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, several, typed
+from symctrl.kernel.closure import Reach
+from symctrl.kernel.enclosed import enclosed
+from symctrl.kernel.instability import rank, unstable
+from symctrl.kernel.interval import Undecided, Undefined
+from symctrl.kernel.place import (
+    SETS,
+    Place,
+    Site,
+    is_fleet,
+    read_place,
+    reads,
+    require_momentary,
+    require_no_jump,
+    sign_of,
+    states,
+)
+from symctrl.kernel.spots import Spot
+from symctrl.kernel.traits import NOT_AFFINE, SMOOTH
+from symctrl.kernel.trajectory import along
+from symctrl.kernel.values import Condition, Sentence, Statement
+from symctrl.kernel.witness import BITS
+
+EXISTS = Sentence("exists", ())
+MAX_SWITCHES = 8
+OWN = {
+    "at": ("values", "switches"),
+    "leaves": ("values",),
+    "undefined": ("values",),
+    "unstable": ("values",),
+    "along": ("time", "listings", "functions", "until", "numbers", "proofs"),
+    "enclosed": ("values", "tube"),
+}
+
+
+def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """None, where the theorem is refuted. Raises Invalid where it is not, Declined where that is open."""
+    if statement.claim.kind != "theorem":
+        raise Invalid(f"a counterexample to a theorem does not refute the claim {statement.claim.kind}")
+    if statement.conditions:
+        raise Invalid("a refutation has no conditions, for the kernel could not check that they hold")
+    how = proof.get("how")
+    if type(how) is not str or how not in OWN:
+        raise Declined(f"a counterexample of the kind {str(how)[:40]!r} is not known")
+    graph = ("graph",) if "values" in OWN[how] and is_fleet(statement) else ()
+    table = fields(proof, ("kind", "how", "then", *OWN[how], *graph), "proof")
+    sentence = _sentence(statement, table["then"])
+    if how == "along":
+        along(statement, sentence, table)
+    else:
+        place = read_place(statement, table)
+        _with_bits(lambda bits: POINTS[how](statement, sentence, place, table, bits))
+    return set()
+
+
+def _sentence(statement: Statement, then: Any) -> Sentence:
+    """The conclusion that is contradicted."""
+    if then == "exists" and type(then) is str:
+        return EXISTS
+    return statement.claim.then[natural(then, len(statement.claim.then), "then")]
+
+
+def _with_bits(work: Callable[[int], None]) -> None:
+    reason = ""
+    for bits in BITS:
+        try:
+            return work(bits)
+        except Undecided as undecided:
+            reason = str(undecided)
+    raise Declined(f"the counterexample is not decided with {BITS[-1]} bits: {reason}")
+
+
+def at(
+    statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int
+) -> None:
+    """A rest point."""
+    site = resting(statement, place, table["switches"], bits)
+    site.require_given()
+    site.require_supposed()
+    require_contradicted(site, sentence)
+
+
+def resting(statement: Statement, place: Place, values: Any, bits: int) -> Site:
+    """The closed loop at a rest point, with these values of the active switches. Raises Invalid."""
+    site = Site(statement, place, bits)
+    jumping = active(site, site.rates())
+    given = [rational(x, "a switch") for x in several(values, len(jumping), "switches")]
+    if any(abs(x) > 1 for x in given):
+        raise Invalid("a switch has a value from -1 to 1")
+    if jumping:
+        directions = _free_states(statement, place)
+        site = Site(statement, place, bits, directions, dict(zip(jumping, given, strict=True)))
+    rates = site.rates()
+    for name, rate in rates.items():
+        if sign_of(rate, f"the rate of {name}"):
+            raise Invalid(f"this is no rest point: the rate of {name} is {_shown(rate)}")
+    if jumping:
+        _require_all_values(site, rates, jumping)
+    return site
+
+
+def active(site: Site, rates: Mapping[str, Spot]) -> list[str]:
+    """The keys of the arguments of switches at which a rate jumps, in the order in which they were met."""
+    jumps = frozenset().union(*(rate.traits.jumps for rate in rates.values()))
+    if jumps - site.domain.active.keys():
+        raise Declined("the field has a jump that is not one of a sign")
+    return [key for key in site.domain.active if key in jumps]
+
+
+def _free_states(statement: Statement, place: Place) -> list[str]:
+    """The states, at their nodes, of which no assumed equation speaks."""
+    bound = {
+        key for a in statement.given if a.kind == "zero" for key in reads(statement, a.of)
+    }
+    return [name for key, name, _ in states(statement, place.graph) if key not in bound]
+
+
+def _require_all_values(site: Site, rates: Mapping[str, Spot], jumping: list[str]) -> None:
+    """Every value in [-1, 1] of every active switch must belong to a value of the field."""
+    for name, rate in rates.items():
+        if rate.traits.degree >= NOT_AFFINE:
+            raise Declined(f"a switch is at its jump, and the rate of {name} is not affine in switches")
+    if site.domain.at_edge:
+        raise Declined("a switch is at its jump, and a root or logarithm at the edge of its domain")
+    rows: list[list[Fraction]] = []
+    for key in jumping:
+        argument = site.domain.active[key]
+        row = argument.gradient()
+        if row is None or argument.traits.level != SMOOTH or argument.traits.jumps:
+            raise Declined("the gradient of the argument of a switch that is at its jump is not known exactly")
+        rows.append(row)
+    if rank(rows) < len(rows):
+        raise Declined("the gradients of the arguments of switches that are at their jumps are dependent")
+
+
+def require_contradicted(site: Site, sentence: Sentence) -> None:
+    """Does the constant solution contradict the conclusion? Raises Invalid where it does not."""
+    word, outputs = sentence.word, [spot for k in sentence.of for spot in site.outputs(k)]
+    by = site.outputs(sentence.by) if sentence.by is not None else None
+    require_no_jump([*outputs, *(by or [])], word)
+    signs = [sign_of(spot, "what the conclusion is about") for spot in outputs]
+    if word in ("exists", "stays", "stable") or (word == "bounded" and by is None):
+        fails = False
+    elif word == "bounded":
+        fails = _exceeds(site, outputs, by or [])
+    elif word == "exponentially" and by is not None:
+        fails = any(signs) and all(sign_of(rate, "the rate of decay") > 0 for rate in by)
+    elif word == "apart":
+        fails = 0 in signs
+    elif word in SETS:
+        fails = any(signs) if sentence.zero else -1 in signs
+    else:
+        fails = any(signs)
+    if not fails:
+        raise Invalid(f"a constant solution at the values does not contradict the conclusion {word}")
+
+
+def _exceeds(site: Site, outputs: list[Spot], by: list[Spot]) -> bool:
+    """Is one of them larger in magnitude than its bound?"""
+    domain = site.domain
+    bounds = by * (len(outputs) // len(by))
+    gaps = [
+        domain.real.sub(bound.number, domain.real.fabs_(e.number))
+        for e, bound in zip(outputs, bounds, strict=True)
+    ]
+    if any(gap.hi < 0 for gap in gaps):
+        return True
+    if all(gap.lo >= 0 for gap in gaps):
+        return False
+    raise Undecided("whether the bound is exceeded")
+
+
+def leaves(
+    statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int
+) -> None:
+    """A state of a set from which every solution leaves it at once."""
+    if sentence.word != "stays":
+        raise Invalid(f"a state from which a set is left does not contradict the conclusion {sentence.word}")
+    require_momentary(statement)
+    site = Site(statement, place, bits)
+    site.rates()
+    site.require_given()
+    site.require_supposed()
+    boundary: list[tuple[int, dict[str, str]]] = []
+    for k in sentence.of:
+        for binding, spot in zip(site.bindings(), site.outputs(k), strict=True):
+            require_no_jump([spot], "the set")
+            sign = sign_of(spot, "what the set is about")
+            if sign < 0 or (sentence.zero and sign):
+                raise Invalid("the values are not in the set that is to be left")
+            if sign == 0:
+                boundary.append((k, binding))
+    reasons = [_kept(site, sentence, k, binding) for k, binding in boundary]
+    if all(reasons):
+        raise Invalid(f"the set is not left here: {reasons[0] if reasons else 'this is no point of its boundary'}")
+
+
+def _kept(site: Site, sentence: Sentence, k: int, binding: dict[str, str]) -> str:
+    """Why this boundary may not be crossed, or nothing where every solution crosses it."""
+    g, rate = _boundary(site, sentence, k, binding)
+    if rate is None:
+        return "a function of its boundary does not move"
+    if g.traits.level != SMOOTH or g.traits.jumps or rate.traits.degree >= NOT_AFFINE:
+        raise Declined("the set has a kink here, or the rate of its boundary is not affine in switches")
+    keys = active(site, {"": rate})
+    if len(keys) > MAX_SWITCHES:
+        raise Declined(f"more than {MAX_SWITCHES} switches are at their jumps")
+    signs = set()
+    for corner in product((Fraction(-1), Fraction(1)), repeat=len(keys)):
+        there = Site(site.statement, site.place, site.domain.real.bits, (), dict(zip(keys, corner, strict=True)))
+        _, turned = _boundary(there, sentence, k, binding)
+        signs.add(0 if turned is None else sign_of(turned, "the rate of a function of the set"))
+    if signs == {-1} or (sentence.zero and signs == {1}):
+        return ""
+    many = " for one value of the switches" if keys else ""
+    return f"the rate of a function of its boundary has the sign {sorted(signs)[-1]}{many}"
+
+
+def _boundary(site: Site, sentence: Sentence, k: int, binding: dict[str, str]) -> tuple[Spot, Spot | None]:
+    ref = (site.statement.claim.listing, k)
+    g, rate = site.value(ref, binding, 1)
+    return g, rate
+
+
+def undefined(
+    statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int
+) -> None:
+    """A state of the domain at which the field has no value."""
+    if sentence.word != "exists":
+        raise Invalid(f"a state without a value of the field does not contradict the conclusion {sentence.word}")
+    require_momentary(statement)
+    law, reach = statement.claim.law, Reach(statement)
+    for name, _ in statement.motion.values():
+        reach.listing(name, "i", 0, law)
+    if any(level for _, level, _ in reach.done):
+        raise Declined("the field reads rates, which may have a value where their formula has none")
+    site = Site(statement, place, bits)
+    site.require_given()
+    site.require_supposed()
+    if not any(_has_no_value(site, key, binding) for key, _, binding in states(statement, place.graph)):
+        raise Invalid("the field has a value here")
+
+
+def _has_no_value(site: Site, key: str, binding: dict[str, str]) -> bool:
+    """Does the rate of this state have none?"""
+    there = Site(site.statement, site.place, site.domain.real.bits)
+    try:
+        there.value(site.statement.motion[key], binding)
+    except Undefined:
+        if there.domain.active:
+            raise Declined("a switch is at its jump") from None
+        return True
+    return False
+
+
+def _shown(spot: Spot) -> str:
+    a = spot.number
+    return str(a.lo)[:60] if a.thin else f"between {float(a.lo):.6g} and {float(a.hi):.6g}"
+
+
+POINTS: Mapping[str, Callable[[Statement, Sentence, Place, Mapping[str, Any], int], None]] = {
+    "at": at,
+    "leaves": leaves,
+    "undefined": undefined,
+    "unstable": unstable,
+    "enclosed": enclosed,
+}

@@ -1,0 +1,224 @@
+"""A sum over all nodes is nonnegative: node by node, or mode by mode of the graph's Laplacian.
+
+Soundness-critical. Last reviewed 2026-11-24.
+
+Theorem (`each`). A sum over nodes of terms that are nonnegative at every node is nonnegative.
+
+Theorem (`spectral`). Let L be the Laplacian of an undirected graph with no eigenvalue above b, and P a quadratic
+form with constant coefficients. If P(x, m x) >= 0 for all x and all m with 0 <= m <= b, then the sum over nodes i of
+P(x_i, (L x)_i) is nonnegative for every graph.
+
+Proof. L = U diag(m) U' with U orthogonal and 0 <= m_k <= b. The sum over nodes of a product of two components is
+that of their coordinates in the columns of U, in which L x has the coordinates m_k times those of x: the sum is the
+sum over k of P(y_k, m_k y_k). Source: spectral theorem; Godsil and Royle, Algebraic Graph Theory, on Laplacians.
+
+In the terms at a node, the sum over neighbours of x is the degree times x less (L x), and the sum over nodes and
+neighbours j of c x_j y_j, for a constant c, is that over nodes of c times the degree times x y. The degree must
+cancel.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from symctrl.kernel import combination
+from symctrl.kernel.argument import single
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, typed
+from symctrl.kernel.conditions import SIGNS
+from symctrl.kernel.polynomial import Poly, powers
+from symctrl.kernel.sums import SumIdentity, opened
+from symctrl.kernel.values import Assumption, Claim, Condition, Listing, Statement, Step
+
+MODE = "mode"
+SHARED = ("kind", "generators", "factors", "hints")
+Key = tuple[tuple[int, int], ...]
+
+
+def needed_conditions_each(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """Field `term`: the proof for the term at a node, {given, proof}."""
+    fields(proof, ("kind", "term"), "proof")
+    listing = statement.listings[statement.claim.listing]
+    if statement.claim.kind != "nonnegative" or len(listing.outputs) != 1 or len(listing.code) != 1:
+        raise Invalid("a proof node by node is of one sum over nodes")
+    meaning = statement.names.get(listing.code[0].name)
+    if meaning is None or meaning.kind != "total":
+        raise Invalid(f"{listing.code[0].name[:60]} is no sum over nodes")
+    term = single(statement.listings[meaning.of[0]], meaning.of[1])
+    claim = Claim("nonnegative", MODE, (1, 1))
+    inner = replace(statement, listings={**statement.listings, MODE: term}, claim=claim)
+    return _proved(inner, statement.given, proof["term"])
+
+
+def needed_conditions_spectral(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
+    """Field `modes`: the proof that P(x, m x) >= 0, {given, proof}; m is called `mode`."""
+    evaluation = {key: value for key, value in proof.items() if key not in ("modes", "bound")}
+    fields(proof, (*SHARED, "modes", "bound"), "proof", ("relations",))
+    bound = natural(proof["bound"], len(statement.given), "bound")
+    if statement.given[bound].kind != "laplacian_bound":
+        raise Invalid(f"assumption {bound} does not bound the eigenvalues of the Laplacian")
+    test, values = opened(statement, evaluation, ("nonnegative",))
+    if len(values) != 1 or MODE in statement.scalars or MODE in statement.names:
+        raise Invalid("a proof mode by mode is of one sum over nodes")
+    p = _at_a_node(test, values[0])
+    form = _in_modes(test, p)
+    inner = _statement(statement, test, form, bound)
+    return test.replay.close() | _proved(inner, inner.given, proof["modes"])
+
+
+def _proved(statement: Statement, given: tuple[Assumption, ...], entry: Any) -> set[Condition]:
+    table = fields(entry, ("given", "proof"), "the inner proof")
+    numbers = [natural(k, len(given), "given") for k in typed(table["given"], list, "given")]
+    if numbers != sorted(set(numbers)):
+        raise Invalid("the assumptions are numbered in order, each once")
+    chosen = replace(statement, given=tuple(given[k] for k in numbers))
+    proof = typed(table["proof"], dict, "the inner proof")
+    if proof.get("kind") != "combination":
+        raise Declined("the inner proof is not a combination")
+    return combination.needed_conditions(chosen, proof)
+
+
+def _at_a_node(test: SumIdentity, value: Any) -> Poly:
+    """The terms of the totals at node i, over a denominator that is positive and constant."""
+    field = test.field
+    numerator, key = field.fraction(value)
+    for f, _ in key:
+        if test.replay.signs.of(field.factors[f]) != SIGNS["positive"]:
+            raise Invalid("a denominator of the sum is not known to be positive")
+    coefficients = test._coefficients(field.normal(numerator), "the sum")
+    at_node = test._at_node(coefficients, "i")
+    p, below = field.fraction(at_node)
+    for f, _ in below:
+        if test.replay.signs.of(field.factors[f]) != SIGNS["positive"] or _local(test, field.factors[f]):
+            raise Invalid("a denominator at a node is not a positive constant")
+    return field.normal(p)
+
+
+def _local(test: SumIdentity, p: Poly) -> bool:
+    return any(_kind(test, k) != "constant" for m in p for k, _ in powers(m))
+
+
+def _kind(test: SumIdentity, k: int) -> str:
+    """Of a generator: constant, node (a free symbol of node i), sum or other."""
+    g = test.replay.table[k]
+    if g.kind == "sum":
+        return "sum"
+    if g.kind != "free":
+        return "other"
+    scalars, name = test.replay.statement.scalars, g.name
+    if ".i" in name:
+        return "node"
+    return "constant" if scalars.get(name) == "parameter" else "other"
+
+
+def _in_modes(test: SumIdentity, p: Poly) -> dict[tuple[Key, Key, int], Fraction]:
+    """Coefficients of P(x, m x) by (constants, node symbols, power of m)."""
+    found: dict[tuple[Key, Key, int, int], Fraction] = {}
+    for m, c in p.items():
+        for (constants, nodes, degree, mode), share in _expanded(test, powers(m)):
+            key = (constants, nodes, degree, mode)
+            found[key] = found.get(key, Fraction(0)) + Fraction(c) * share
+    kept = {key: c for key, c in found.items() if c}
+    for constants, nodes, degree, _ in kept:
+        if degree:
+            raise Invalid("the degree of a node does not cancel: the sum is no form in x and L x")
+        if sum(e for _, e in nodes) != 2:
+            raise Invalid("the sum is no quadratic form in the symbols of a node")
+        if any(_kind(test, k) != "constant" for k, _ in constants):
+            raise Invalid("a coefficient of the form is not constant")
+    return {(constants, nodes, mode): c for (constants, nodes, _, mode), c in kept.items()}
+
+
+def _expanded(test: SumIdentity, factors: list[tuple[int, int]]) -> list[tuple[tuple[Key, Key, int, int], int]]:
+    """A monomial with its sums over neighbours put in terms of the degree d and of L x = m x at the node."""
+    constants = [(k, e) for k, e in factors if _kind(test, k) == "constant"]
+    nodes = {k: e for k, e in factors if _kind(test, k) == "node"}
+    sums = [(k, e) for k, e in factors if _kind(test, k) == "sum"]
+    if any(_kind(test, k) == "other" for k, _ in factors):
+        raise Invalid("the sum has a term that is no product of symbols of a node")
+    results: list[tuple[dict[int, int], int, int, int]] = [(nodes, 0, 0, 1)]
+    for k, e in sums:
+        inside = dict(test.replay.table[k].powers)
+        size = sum(inside.values())
+        alone = not nodes and len(sums) == 1 and e == 1
+        if size > 2 or (size == 2 and not alone):
+            raise Invalid("a sum over neighbours of a product beside other symbols of the node")
+        for _ in range(e):
+            results = [new for old in results for new in _one_sum(test, old, inside, size)]
+    return [((tuple(constants), tuple(sorted(n.items())), d, m), share) for n, d, m, share in results]
+
+
+def _one_sum(
+    test: SumIdentity, old: tuple[dict[int, int], int, int, int], inside: dict[int, int], size: int
+) -> list[tuple[dict[int, int], int, int, int]]:
+    """Sum of 1: d. Sum of x_j: d x - m x. Sum of x_j y_j, under the sum over nodes: d x y."""
+    nodes, degree, mode, share = old
+    merged = dict(nodes)
+    for k, e in inside.items():
+        at = _same_at_i(test, k)
+        merged[at] = merged.get(at, 0) + e
+    if size == 1:
+        return [(merged, degree + 1, mode, share), (merged, degree, mode + 1, -share)]
+    return [(merged, degree + 1, mode, share)]
+
+
+def _same_at_i(test: SumIdentity, k: int) -> int:
+    """The generator of node i that is the neighbour's generator k."""
+    name = test.replay.table[k].name.replace(".j", ".i", 1)
+    if test.replay.table[k].kind != "free" or name not in test.replay.free:
+        raise Invalid(f"{test.replay.table[k].name[:60]} of the neighbour has no like at the node")
+    return test.replay.free[name]
+
+
+def _statement(
+    statement: Statement, test: SumIdentity, form: dict[tuple[Key, Key, int], Fraction], bound: int
+) -> Statement:
+    """That P(x, m x) >= 0 for 0 <= m <= b."""
+    name: Callable[[int], str] = lambda k: test.replay.table[k].name  # noqa: E731
+    listing = polynomial_listing(
+        [
+            (c, [(name(k), e) for k, e in (*constants, *nodes)] + ([(MODE, mode)] if mode else []))
+            for (constants, nodes, mode), c in form.items()
+        ]
+    )
+    b = single(statement.listings[statement.given[bound].of[0][0]], statement.given[bound].of[0][1])
+    below = Listing((*b.code, Step("INPUT", name=MODE), Step("SUB", (b.outputs[0], len(b.code)))), (len(b.code) + 1,), "")
+    listings = {
+        **statement.listings,
+        f"{MODE}s": listing,
+        f"{MODE} is": Listing((Step("INPUT", name=MODE),), (0,), ""),
+        f"{MODE} below": below,
+    }
+    given = (
+        *statement.given,
+        Assumption("nonnegative", ((f"{MODE} is", 0),), text=f"{MODE} >= 0"),
+        Assumption("nonnegative", ((f"{MODE} below", 0),), text=f"{MODE} <= the bound of eigenvalues"),
+    )
+    claim = Claim("nonnegative", f"{MODE}s", (1, 1))
+    scalars = {**statement.scalars, MODE: "parameter"}
+    return replace(statement, listings=listings, given=given, claim=claim, scalars=scalars)
+
+
+def polynomial_listing(terms: list[tuple[Fraction, list[tuple[str, int]]]]) -> Listing:
+    """A polynomial by its terms, in an order of their own, as a listing."""
+    code: list[Step] = []
+    at: dict[Step, int] = {}
+
+    def emit(step: Step) -> int:
+        if step not in at:
+            at[step] = len(code)
+            code.append(step)
+        return at[step]
+
+    total = emit(Step("CONST", value=Fraction(0)))
+    for c, factors in sorted(terms, key=lambda term: sorted(term[1])):
+        term = emit(Step("CONST", value=c))
+        for name, e in sorted(factors):
+            for _ in range(e):
+                term = emit(Step("MUL", (term, emit(Step("INPUT", name=name)))))
+        total = emit(Step("ADD", (total, term)))
+    return Listing(tuple(code), (total,), "")
+
+
