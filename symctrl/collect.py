@@ -55,10 +55,18 @@ class Used:
 
 
 class Collector:
-    """Gathers one problem. values: exact values of parameters that are bound, by scalar name."""
+    """Gathers one problem. values: exact values of parameters that are bound, by scalar name. bodies: other
+    formulas for laws, by their names.
+    """
 
-    def __init__(self, study: Study, values: Mapping[str, Fraction] | None = None) -> None:
+    def __init__(
+        self,
+        study: Study,
+        values: Mapping[str, Fraction] | None = None,
+        bodies: Mapping[str, Expr] | None = None,
+    ) -> None:
         self.study = study
+        self.bodies = dict(bodies or {})
         self.values = dict(values or {})
         self.listings: dict[str, Tape] = {}
         self.scalars: dict[str, str] = {}
@@ -122,6 +130,8 @@ class Collector:
         """The problem with the right side of a proved equation in the place of the name, or of the rate, on
         its left.
         """
+        if used.left.op == "symbol":
+            return self._defined(made, used)
         record = used.left.args[0] if used.left.op == "deferred" else None
         if not isinstance(record, Named | Rate):
             raise StudyError(f"using: {used.text()} has no definition and no rate of one on its left")
@@ -153,6 +163,22 @@ class Collector:
                 f"using: {used.text()} is a rate under the law {record.law}, and the claim takes another"
             )
         return with_motion(made, inner.label, shown, listing) if shown[0] in made.names else made
+
+    def _defined(self, made: Problem, used: Equal) -> Problem:
+        """The problem in which a symbol is a name for the right side of a proved equation."""
+        shown = component_names(used.left.args[0].replace(".i", ".*"), used.left.shape, used.left.args[2])
+        listing = f"using {used.left.args[0]}"
+        self.add(listing, [used.right])
+        self._reach(listing)
+        names = dict(made.names) | dict(self.names)
+        names |= {name: Meaning("value", (listing, k)) for k, name in enumerate(shown)}
+        return replace(
+            made,
+            listings=dict(made.listings) | {n: t for n, t in self.listings.items() if n not in made.listings},
+            names=names,
+            scalars={n: k for n, k in (dict(self.scalars) | dict(made.scalars)).items() if n not in shown},
+            motion={n: of for n, of in (dict(self.motion) | dict(made.motion)).items() if n not in shown},
+        )
 
     def _scalars_of(self, record: Named | Rate, expr: Expr) -> list[str]:
         """The starred scalars of a definition or rate."""
@@ -274,7 +300,7 @@ class Collector:
         target = law.target
         base = target.args[0].replace(".i", ".*")
         self.laws[name] = {s: (f"law {name}", k) for k, s in enumerate(component_names(base, target.shape))}
-        self.add(f"law {name}", [law.body()])
+        self.add(f"law {name}", [self.bodies.get(name) or law.body()])
         for scalar in self.laws[name]:
             self.scalars.setdefault(scalar, "input")
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from symctrl.collect import Collector
+from symctrl.collect import Collector, Used
 from symctrl.entries import component_names
 from symctrl.expr import Expr
 from symctrl.facts import SETS, Fact
@@ -15,8 +15,10 @@ from symctrl.kernel import values as kernel
 from symctrl.kernel.argument import extended
 from symctrl.kernel.compose import rates_of
 from symctrl.kernel.form import read_statement
-from symctrl.problem import Assumption, Claim, Meaning, Output, Problem, split, star
+from symctrl.problem import ADVICE, PROVED, Assumption, Claim, Meaning, Output, Problem, Use, split, star
+from symctrl.reach import Reach, _without_idle_law
 from symctrl.records import rate
+from symctrl.statements import Equal
 from symctrl.theorem import Theorem
 from symctrl.written import Law, StudyError
 
@@ -30,26 +32,38 @@ class Loop:
     """The problem of a theorem, and more quantities as they are asked for.
 
     problem: the theorem alone, its statement. statement: the kernel's form of it with all quantities and rates.
+    using: proved statements; the right side of an equation takes the place of what is on its left.
     """
 
-    def __init__(self, study: Study, theorem: Theorem, id_: str) -> None:
+    def __init__(
+        self, study: Study, theorem: Theorem, id_: str, using: Sequence[Used] = (), changed: Changed | None = None
+    ) -> None:
         self.study = study
         self.theorem = theorem
+        self.using = using
         self.laws = _laws_of(study, theorem)
+        changed = changed or Changed()
+        self.collector = Collector(study, bodies=changed.laws)
         self.law = " and ".join(law.name for law in self.laws) or None
-        self.collector = Collector(study)
         self.suppose, self.then = self._claim_listing(theorem)
         self._close()
-        for given in theorem.given:
-            self.collector.assume(given.claim, given.about)
-            self._close()
-        with study.along_trajectory(True):
+        for k, given in enumerate(theorem.given):
+            if k != changed.dropped:
+                self.collector.assume(given.claim, given.about)
+                self._close()
+        for used in using:
+            if not isinstance(used.claim, Equal):
+                self.collector.assume(used.claim, PROVED)
+        with study.along_trajectory(changed.along):
             self.collector._assume_what_occurs()
         self._close()
-        self.problem = self._tables(Problem(study.name, id_, theorem.text(), {}, self._claim()))
+        empty = Problem(study.name, id_, theorem.text(), {}, Claim("theorem", "claim", theorem={}))
+        self.problem = self._base(empty)
         self.statement = extended(read_statement(self.problem.statement()), ())
+        self.minted: tuple[dict[str, Any], dict[str, Any]] = self._minted_of(self.statement)
         self.quantities: dict[str, Expr | None] = {}
         self._by_tape: dict[str, str] = {}
+        self._listings: dict[int, tuple[Tape, kernel.Listing]] = {}
 
     def quantity(self, what: Expr | Tape) -> str:
         """The name of a scalar expression, or of a tape of one output, as a quantity of the argument."""
@@ -73,50 +87,52 @@ class Loop:
         """The rate of an expression along the closed loop."""
         return rate(what, self.laws[0].name if self.law is not None else None)
 
+    def _base(self, empty: Problem) -> Problem:
+        """The theorem's problem with what its solutions read, and nothing else."""
+        whole = reached(self._tables(empty), ["claim"], self.law)
+        if self.law is not None and self.law not in whole.laws:
+            self.law = None
+            whole = reached(self._tables(empty), ["claim"], None)
+        stated = {"law": self.law, "suppose": self.suppose, "then": self.then}
+        return replace(whole, claim=Claim("theorem", "claim", theorem=stated))
+
+    def _minted_of(self, statement: kernel.Statement) -> tuple[dict[str, Any], dict[str, Any]]:
+        """The listings and names that the rules have of their own."""
+        listings = {n: x for n, x in statement.listings.items() if n not in self.problem.listings}
+        return listings, {n: x for n, x in statement.names.items() if n not in self.problem.names}
+
     def _extend(self, quantity: str) -> None:
         """Bring the kernel's statement up to the collector's tables."""
         whole = self._tables(self.problem)
-        new = {k: listing_of(t) for k, t in whole.listings.items() if k not in self.statement.listings}
-        names = {k: meaning_of(m) for k, m in whole.names.items() if k not in self.statement.names}
-        rate_listings, rates = rates_of(quantity, new[quantity], self.law)
+        listings = {name: self._listing(tape) for name, tape in whole.listings.items()}
+        rates = rates_of(quantity, listings[quantity], self.law)
+        for table, new in zip(self.minted, rates, strict=True):
+            table.update(new)
         self.statement = replace(
             self.statement,
-            listings={**self.statement.listings, **new, **rate_listings},
-            names={**self.statement.names, **names, **rates},
-            scalars={**self.statement.scalars, **whole.scalars},
-            motion={**self.statement.motion, **whole.motion},
-            laws={**self.statement.laws, **whole.laws},
+            listings={**listings, **self.minted[0]},
+            names={**{n: meaning_of(m) for n, m in whole.names.items()}, **self.minted[1]},
+            scalars=whole.scalars,
+            motion=whole.motion,
+            laws=whole.laws,
         )
+
+    def _listing(self, tape: Tape) -> kernel.Listing:
+        if id(tape) not in self._listings:
+            self._listings[id(tape)] = tape, listing_of(tape)
+        return self._listings[id(tape)][1]
 
     def added(self, used: Sequence[str]) -> dict[str, Any]:
         """What the argument has beside the statement: the tables of its proof, with the quantities used."""
-        whole = self._tables(self.problem)
-        from symctrl.reach import Reach
-
-        reach = Reach(whole)
-        for quantity in used:
-            reach.listing(quantity, 0, None)
-            reach.listing(quantity, 0, self.law)
-        reached = {name for name, _, _ in reach.visits}
-        moved = {n for n in whole.motion if n in reach.read}
-        while True:
-            for n in moved:
-                reach.listing(whole.motion[n][0], 0, self.law)
-            more = {n for n in whole.motion if n in reach.read} - moved
-            reached = {name for name, _, _ in reach.visits}
-            if not more:
-                break
-            moved |= more
         old = self.problem
+        whole = reached(self._tables(old), ["claim", *used], self.law)
         return {
             "listings": {
-                n: t.as_json() | {"sha256": t.sha256}
-                for n, t in whole.listings.items()
-                if n in reached and n not in old.listings
+                n: t.as_json() | {"sha256": t.sha256} for n, t in whole.listings.items() if n not in old.listings
             },
-            "names": {n: m.as_json() for n, m in whole.names.items() if n in reach.read and n not in old.names},
-            "scalars": {n: k for n, k in whole.scalars.items() if n in reach.read and n not in old.scalars},
-            "motion": {n: list(of) for n, of in whole.motion.items() if n in moved and n not in old.motion},
+            "names": {n: m.as_json() for n, m in whole.names.items() if n not in old.names},
+            "scalars": {n: k for n, k in whole.scalars.items() if n not in old.scalars},
+            "motion": {n: list(of) for n, of in whole.motion.items() if n not in old.motion},
             "laws": {},
         }
 
@@ -140,23 +156,31 @@ class Loop:
                     self.collector._law(law.name)
 
     def _tables(self, problem: Problem) -> Problem:
-        """The problem with what has been collected, and one law for the closed loop."""
+        """The problem with what has been collected, one law for the closed loop, and what is used in its place."""
         c = self.collector
         own = [law.name for law in self.laws]
         joint = {u: of for name in own for u, of in c.laws.get(name, {}).items()}
         laws: dict[str, Mapping[str, Output]] = {n: table for n, table in c.laws.items() if n not in own}
         if self.law is not None and joint:
             laws[self.law] = joint
-        names = {n: replace(m, law=self.law) if m.law in own else m for n, m in c.names.items()}
-        return replace(
+        made = replace(
             problem,
             listings=dict(c.listings),
             scalars=dict(c.scalars),
-            names=names,
+            names=dict(c.names),
             motion=dict(c.motion),
             laws=laws,
             given=tuple(c.given),
         )
+        for used in self.using:
+            if isinstance(used.claim, Equal):
+                made = replace(c._replaced(made, used.claim), laws=laws)
+        names = {n: replace(m, law=self.law) if m.law in own else m for n, m in made.names.items()}
+        listings = {name: tape for name, tape in made.listings.items() if name != ADVICE}
+        return replace(made, names=names, listings=listings, uses=self._uses())
+
+    def _uses(self) -> tuple[Use, ...]:
+        return tuple(Use(used.id, used.sha256, f"using {used.id}") for used in self.using)
 
     def _claim_listing(self, theorem: Theorem) -> tuple[list[Sentence], list[Sentence]]:
         exprs: list[Expr] = []
@@ -183,14 +207,44 @@ class Loop:
     def _point(self, fact: Fact) -> dict[str, str]:
         return {name: str(value) for name, value in scalars_at(self.study, fact.at, fact.word).items()}
 
-    def _claim(self) -> Claim:
-        theorem = {"law": self.law if self._law_is_used() else None, "suppose": self.suppose, "then": self.then}
-        if theorem["law"] is None:
-            self.law = None
-        return Claim("theorem", "claim", theorem=theorem)
 
-    def _law_is_used(self) -> bool:
-        return any(self.collector.laws.get(law.name) for law in self.laws)
+@dataclass(frozen=True)
+class Changed:
+    """A twin of a theorem: without one assumption, or with other laws. along: with the study's assumptions about the
+    trajectory."""
+
+    dropped: int | None = None
+    laws: Mapping[str, Expr] = field(default_factory=dict)
+    along: bool = True
+
+
+def reached(problem: Problem, roots: Sequence[str], law: str | None) -> Problem:
+    """The problem with only what listings read, and the motion of that under the law, and the assumptions read."""
+    reach = Reach(problem)
+    for root in roots:
+        reach.listing(root, 0, law)
+    for assumption in problem.given:
+        for of in assumption.of:
+            reach.listing(of[0], 0, None)
+    looped: set[str] = set()
+    while new := [n for n in problem.motion if n in reach.read and n not in looped]:
+        for name in new:
+            looped.add(name)
+            reach.listing(problem.motion[name][0], 0, law)
+    entered = {name for name, _, _ in reach.visits}
+    laws = {
+        name: {u: of for u, of in table.items() if (name, u) in reach.replaced}
+        for name, table in problem.laws.items()
+    }
+    laws = {name: table for name, table in laws.items() if table}
+    return replace(
+        problem,
+        listings={name: tape for name, tape in problem.listings.items() if name in entered},
+        names={n: _without_idle_law(m, laws) for n, m in problem.names.items() if n in reach.read},
+        scalars={n: k for n, k in problem.scalars.items() if n in reach.read},
+        motion={n: of for n, of in problem.motion.items() if n in looped or n in reach.moved},
+        laws=laws,
+    )
 
 
 def scalars_at(study: Study, at: Mapping[str, Sequence[Any]], what: str) -> dict[str, Any]:
