@@ -6,15 +6,13 @@ Theorem: a theorem is a claim about all parameters, signals, graphs and solution
 about each of its conclusions and that solutions exist for all time, which every theorem concludes. It is
 false where one of them meets all that is given and contradicts one of these.
 
-at: where all rates are zero the constant function is a solution. Where a switch is at its jump, the field is
-f + s g + .. for its active switches s, f and g continuous; if the gradients of their arguments, by states that
-no assumed equation speaks of, are independent, every sign of all of them occurs near the point on an open set,
-so that for any s in [-1, 1] the value is one of Filippov's (Differential Equations with Discontinuous Righthand
-Sides, 1988, section 4).
-leaves: g = 0 and g' < 0 for every value of the active switches; all of Filippov's values are convex
-combinations of these, and his set is upper semicontinuous: so g' < 0 for some time along every solution.
+at: where all rates are zero the constant function is a solution. Where a switch is at its jump, the field
+is f + s g + .. for its active switches s, f and g continuous; if the gradients of their arguments, by states
+that no assumed equation speaks of, are independent, all combinations of signs occur near the point, each
+on an open set, so that for any s in [-1, 1] the value is one of Filippov's (Differential Equations with
+Discontinuous Righthand Sides, 1988, section 4).
 undefined: a solution needs a field that has a value where it begins.
-unstable, along and enclosed: `instability`, `trajectory`, `enclosed`.
+leaves, unstable, along and enclosed: `boundary`, `instability`, `trajectory`, `enclosed`.
 
 Proof fields: `how`; `then`, the conclusion from 0, or "exists"; and by `how`:
 at {values, graph, switches}, leaves and undefined {values, graph}, unstable {values}: numbers of all free
@@ -26,16 +24,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from fractions import Fraction
-from itertools import product
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, several, typed
+from symctrl.kernel.boundary import leaves
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, several
 from symctrl.kernel.closure import Reach
 from symctrl.kernel.enclosed import enclosed
 from symctrl.kernel.instability import rank, unstable
 from symctrl.kernel.interval import Undecided, Undefined
 from symctrl.kernel.place import (
     SETS,
+    NotContradicted,
     Place,
     Site,
     is_fleet,
@@ -53,7 +52,6 @@ from symctrl.kernel.values import Condition, Sentence, Statement
 from symctrl.kernel.witness import BITS
 
 EXISTS = Sentence("exists", ())
-MAX_SWITCHES = 8
 OWN = {
     "at": ("values", "switches"),
     "leaves": ("values",),
@@ -101,9 +99,7 @@ def _with_bits(work: Callable[[int], None]) -> None:
     raise Declined(f"the counterexample is not decided with {BITS[-1]} bits: {reason}")
 
 
-def at(
-    statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int
-) -> None:
+def at(statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int) -> None:
     """A rest point."""
     site = resting(statement, place, table["switches"], bits)
     site.require_given()
@@ -114,7 +110,7 @@ def at(
 def resting(statement: Statement, place: Place, values: Any, bits: int) -> Site:
     """The closed loop at a rest point, with these values of the active switches. Raises Invalid."""
     site = Site(statement, place, bits)
-    jumping = active(site, site.rates())
+    jumping = site.active(site.rates())
     given = [rational(x, "a switch") for x in several(values, len(jumping), "switches")]
     if any(abs(x) > 1 for x in given):
         raise Invalid("a switch has a value from -1 to 1")
@@ -130,19 +126,9 @@ def resting(statement: Statement, place: Place, values: Any, bits: int) -> Site:
     return site
 
 
-def active(site: Site, rates: Mapping[str, Spot]) -> list[str]:
-    """The keys of the arguments of switches at which a rate jumps, in the order in which they were met."""
-    jumps = frozenset().union(*(rate.traits.jumps for rate in rates.values()))
-    if jumps - site.domain.active.keys():
-        raise Declined("the field has a jump that is not one of a sign")
-    return [key for key in site.domain.active if key in jumps]
-
-
 def _free_states(statement: Statement, place: Place) -> list[str]:
     """The states, at their nodes, of which no assumed equation speaks."""
-    bound = {
-        key for a in statement.given if a.kind == "zero" for key in reads(statement, a.of)
-    }
+    bound = {key for a in statement.given if a.kind == "zero" for key in reads(statement, a.of)}
     return [name for key, name, _ in states(statement, place.graph) if key not in bound]
 
 
@@ -158,7 +144,7 @@ def _require_all_values(site: Site, rates: Mapping[str, Spot], jumping: list[str
         argument = site.domain.active[key]
         row = argument.gradient()
         if row is None or argument.traits.level != SMOOTH or argument.traits.jumps:
-            raise Declined("the gradient of the argument of a switch that is at its jump is not known exactly")
+            raise Declined("a switch is at its jump, and the gradient of its argument is not known exactly")
         rows.append(row)
     if rank(rows) < len(rows):
         raise Declined("the gradients of the arguments of switches that are at their jumps are dependent")
@@ -183,7 +169,7 @@ def require_contradicted(site: Site, sentence: Sentence) -> None:
     else:
         fails = any(signs)
     if not fails:
-        raise Invalid(f"a constant solution at the values does not contradict the conclusion {word}")
+        raise NotContradicted(f"a constant solution at the values does not contradict the conclusion {word}")
 
 
 def _exceeds(site: Site, outputs: list[Spot], by: list[Spot]) -> bool:
@@ -201,65 +187,17 @@ def _exceeds(site: Site, outputs: list[Spot], by: list[Spot]) -> bool:
     raise Undecided("whether the bound is exceeded")
 
 
-def leaves(
-    statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int
-) -> None:
-    """A state of a set from which every solution leaves it at once."""
-    if sentence.word != "stays":
-        raise Invalid(f"a state from which a set is left does not contradict the conclusion {sentence.word}")
-    require_momentary(statement)
-    site = Site(statement, place, bits)
-    site.rates()
-    site.require_given()
-    site.require_supposed()
-    boundary: list[tuple[int, dict[str, str]]] = []
-    for k in sentence.of:
-        for binding, spot in zip(site.bindings(), site.outputs(k), strict=True):
-            require_no_jump([spot], "the set")
-            sign = sign_of(spot, "what the set is about")
-            if sign < 0 or (sentence.zero and sign):
-                raise Invalid("the values are not in the set that is to be left")
-            if sign == 0:
-                boundary.append((k, binding))
-    reasons = [_kept(site, sentence, k, binding) for k, binding in boundary]
-    if all(reasons):
-        raise Invalid(f"the set is not left here: {reasons[0] if reasons else 'this is no point of its boundary'}")
-
-
-def _kept(site: Site, sentence: Sentence, k: int, binding: dict[str, str]) -> str:
-    """Why this boundary may not be crossed, or nothing where every solution crosses it."""
-    g, rate = _boundary(site, sentence, k, binding)
-    if rate is None:
-        return "a function of its boundary does not move"
-    if g.traits.level != SMOOTH or g.traits.jumps or rate.traits.degree >= NOT_AFFINE:
-        raise Declined("the set has a kink here, or the rate of its boundary is not affine in switches")
-    keys = active(site, {"": rate})
-    if len(keys) > MAX_SWITCHES:
-        raise Declined(f"more than {MAX_SWITCHES} switches are at their jumps")
-    signs = set()
-    for corner in product((Fraction(-1), Fraction(1)), repeat=len(keys)):
-        there = Site(site.statement, site.place, site.domain.real.bits, (), dict(zip(keys, corner, strict=True)))
-        _, turned = _boundary(there, sentence, k, binding)
-        signs.add(0 if turned is None else sign_of(turned, "the rate of a function of the set"))
-    if signs == {-1} or (sentence.zero and signs == {1}):
-        return ""
-    many = " for one value of the switches" if keys else ""
-    return f"the rate of a function of its boundary has the sign {sorted(signs)[-1]}{many}"
-
-
-def _boundary(site: Site, sentence: Sentence, k: int, binding: dict[str, str]) -> tuple[Spot, Spot | None]:
-    ref = (site.statement.claim.listing, k)
-    g, rate = site.value(ref, binding, 1)
-    return g, rate
-
-
 def undefined(
     statement: Statement, sentence: Sentence, place: Place, table: Mapping[str, Any], bits: int
 ) -> None:
     """A state of the domain at which the field has no value."""
     if sentence.word != "exists":
-        raise Invalid(f"a state without a value of the field does not contradict the conclusion {sentence.word}")
+        raise NotContradicted(
+            f"that the field has no value does not contradict the conclusion {sentence.word}"
+        )
     require_momentary(statement)
+    if statement.uses:
+        raise Declined("a formula that a proved statement replaced may have had a value")
     law, reach = statement.claim.law, Reach(statement)
     for name, _ in statement.motion.values():
         reach.listing(name, "i", 0, law)

@@ -13,7 +13,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from symctrl.kernel import combination, conforms, definite, identity, squeeze, theorem, total, witness
+from symctrl.kernel import (
+    against,
+    combination,
+    conforms,
+    definite,
+    identity,
+    squeeze,
+    theorem,
+    total,
+    witness,
+)
 from symctrl.kernel.certificate import Declined, Invalid, Refused
 from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
 from symctrl.kernel.printing import line, print_statement
@@ -31,7 +41,9 @@ PROOFS: dict[str, Rules] = {
     "each": total.needed_conditions_each,
     "spectral": total.needed_conditions_spectral,
     "argument": theorem.needed_conditions,
+    "against": against.needed_conditions,
 }
+REFUTING = ("witness", "against")
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
 
@@ -70,7 +82,7 @@ def _attempt(work: Callable[[Any], Answer], about: Any) -> Answer:
 
 def _decide(part: Any) -> Answer:
     certificate = read(part)
-    statement = print_statement(certificate.statement, refuted=certificate.proof.get("kind") == "witness")
+    statement = print_statement(certificate.statement, refuted=certificate.proof.get("kind") in REFUTING)
     done = _attempt(_verify, certificate)
     return Answer(done.status, statement, done.reason)
 

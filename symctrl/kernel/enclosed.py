@@ -2,9 +2,9 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorem: by `tube` there is one solution from the initial values, for constant signals, and it is in the boxes of
-the tube. A set of which it is outside at a time is left by then, and not kept from an earlier time on; one of
-which it is outside at all times up to T is not reached by T.
+Theorem: by `tube` there is one solution from the initial values, for constant signals, and it is in the
+boxes of the tube. A set of which it is outside at a time is left by then, and not kept from an earlier time
+on; one of which it is outside at all times up to T is not reached by T.
 
 Proof fields: `values`, of all free scalars, those of states at t = 0; `tube`, as in `tube`.
 """
@@ -14,11 +14,19 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from symctrl.kernel.certificate import Declined, Invalid
+from symctrl.kernel.certificate import Declined
 from symctrl.kernel.enclosure import Enclosure
 from symctrl.kernel.evaluation import Evaluation, NoSums
 from symctrl.kernel.interval import Interval, point
-from symctrl.kernel.place import Place, Site, is_fleet, require_momentary, require_no_jump, sign_of
+from symctrl.kernel.place import (
+    NotContradicted,
+    Place,
+    Site,
+    is_fleet,
+    require_momentary,
+    require_no_jump,
+    sign_of,
+)
 from symctrl.kernel.sliced import slice_of, sliced
 from symctrl.kernel.tube import Box, Segment, verify_tube
 from symctrl.kernel.values import Sentence, Statement
@@ -41,7 +49,7 @@ def enclosed(
     if sentence.word == "stays":
         signs = [sign_of(spot, "what the set is about") for spot in begin]
         if any(signs) if sentence.zero else -1 in signs:
-            raise Invalid("the solution does not begin in the set")
+            raise NotContradicted("the solution does not begin in the set")
         fails = seen.outside(segments[-1].end)
     elif sentence.word in ("settles", "enters") and sentence.by is not None:
         by = site.outputs(sentence.by)[0]
@@ -50,9 +58,9 @@ def enclosed(
     elif sentence.word == "bounded" and sentence.by is not None:
         fails = seen.beyond(segments[-1].end, site.outputs(sentence.by)[0].number)
     else:
-        raise Invalid(f"a solution up to a time does not contradict the conclusion {sentence.word}")
+        raise NotContradicted(f"a solution up to a time does not contradict the conclusion {sentence.word}")
     if not fails:
-        raise Invalid(f"the tube does not contradict the conclusion {sentence.word}")
+        raise NotContradicted(f"the tube does not contradict the conclusion {sentence.word}")
 
 
 def _too_late(sentence: Sentence, seen: Seen, segments: Sequence[Segment], by: Interval) -> bool:
@@ -88,4 +96,3 @@ class Seen:
 
     def beyond(self, box: Box, bound: Interval) -> bool:
         return any(a.lo > bound.hi or -a.hi > bound.hi for a in self.values(box))
-

@@ -11,19 +11,21 @@ T. T is the kernel of the gradients of assumed equations about the state, which 
 assumptions about the state must hold in a neighbourhood.
 
 Theorem: if no root of a real monic polynomial has a positive real part, no coefficient is negative (it is a
-product of x + a and x^2 + b x + c with a, b, c >= 0). The number of roots with a positive real part is that of
-the changes of sign in the first column of its Routh array, if there is no zero in it (Gantmacher, The Theory of
-Matrices, chapter XV).
+product of x + a and x^2 + b x + c with a, b, c >= 0). The number of roots with a positive real part is that
+of the changes of sign in the first column of its Routh array, if there is no zero in it (Gantmacher, The
+Theory of Matrices, chapter XV).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import Any
 
 from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.place import (
+    NotContradicted,
     Place,
     Site,
     is_fleet,
@@ -48,13 +50,15 @@ def unstable(
 ) -> None:
     """Raises Invalid or Declined where the point is not shown to be no stable one."""
     if sentence.word != "stable":
-        raise Invalid(f"an unstable rest point does not contradict the conclusion {sentence.word}")
+        raise NotContradicted(f"an unstable rest point does not contradict the conclusion {sentence.word}")
     if is_fleet(statement):
         raise Declined("the stability of a rest point of a fleet")
     states = list(statement.motion)
     if len(states) > MAX_STATES:
         raise Declined(f"the stability of a rest point with more than {MAX_STATES} states")
     at = dict(sentence.at)
+    if not at.keys() <= statement.motion.keys():
+        raise Declined("the statement does not have the motion of all states of the point")
     if any(place.values.get(name) != x for name, x in at.items()):
         raise Invalid("the values are not the point that the conclusion speaks of")
     if at.keys() != set(states):
@@ -110,7 +114,8 @@ def _equations(site: Site, states: Sequence[str]) -> list[list[Fraction]]:
 
 def reduced(rows: Rows) -> tuple[list[list[Fraction]], list[int]]:
     """The reduced echelon form without zero rows, and the columns of its pivots."""
-    left, done, pivots = [list(row) for row in rows], [], []
+    left, pivots = [list(row) for row in rows], []
+    done: list[list[Fraction]] = []
     for column in range(len(rows[0]) if rows else 0):
         found = next((row for row in left if row[column]), None)
         if found is None:
@@ -193,4 +198,4 @@ def _changes(coefficients: Row) -> bool:
         ratio = above[0] / row[0]
         below = [a - ratio * b for a, b in zip(above[1:], [*row[1:], Fraction(0)], strict=False)]
         above, row = row, below
-    return any(a * b < 0 for a, b in zip(column, column[1:], strict=False))
+    return any(a * b < 0 for a, b in pairwise(column))

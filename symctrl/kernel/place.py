@@ -18,11 +18,16 @@ from typing import Any
 from symctrl.kernel.certificate import Declined, Invalid, at_node, per_node
 from symctrl.kernel.closure import Reach
 from symctrl.kernel.evaluation import Evaluation, GraphSums, Level, NoSums
-from symctrl.kernel.interval import Undecided
+from symctrl.kernel.interval import Interval, Undecided
 from symctrl.kernel.sliced import slice_of, sliced
 from symctrl.kernel.spots import Spot, Spots
 from symctrl.kernel.values import Assumption, Ref, Sentence, Statement
-from symctrl.kernel.witness import Graph, _bindings, _holds, _read_graph, _values
+from symctrl.kernel.witness import Graph, _bindings, _holds, _laplacian_below, _read_graph, _values
+
+
+class NotContradicted(Invalid):
+    """What is offered may be a solution, but it does not contradict the conclusion."""
+
 
 SETS = frozenset(("stays", "enters", "settles", "eventually"))
 
@@ -135,6 +140,13 @@ class Site:
             for key, name, binding in states(self.statement, self.place.graph)
         }
 
+    def active(self, rates: Mapping[str, Spot]) -> list[str]:
+        """The keys of the arguments of switches at which a rate jumps, in the order of meeting them."""
+        jumps = frozenset().union(*(rate.traits.jumps for rate in rates.values()))
+        if jumps - self.domain.active.keys():
+            raise Declined("the field has a jump that is not one of a sign")
+        return [key for key in self.domain.active if key in jumps]
+
     def outputs(self, k: int) -> list[Spot]:
         """One output of the claim's listing, for all nodes and neighbours that it speaks of."""
         ref = (self.statement.claim.listing, k)
@@ -154,11 +166,17 @@ class Site:
             for binding in _bindings(self.statement, assumption, self.place.graph):
                 entries = [self.value(ref, binding) for ref in assumption.of]
                 require_no_jump(entries, assumption.text)
-                if not _holds(assumption, [entry.number for entry in entries]):
+                if not self._holds(assumption, [entry.number for entry in entries]):
                     at = f" at node {binding['i']}" if binding else ""
                     raise Invalid(
                         f"the values do not satisfy assumption {k + 1}, {assumption.text[:80]!r}{at}"
                     )
+
+    def _holds(self, assumption: Assumption, entries: Sequence[Interval]) -> bool:
+        if assumption.kind == "laplacian_bound":
+            bound, assumption = _laplacian_below(self.place.graph, entries[0], assumption)
+            return _holds(assumption, bound)
+        return _holds(assumption, entries)
 
     def require_supposed(self) -> None:
         """What is supposed holds, if all that it speaks of stays as it is here."""

@@ -2,7 +2,8 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on no theorem: what an output does not need has no part in its value, not even where it has none itself.
+Relies on no theorem: what an output does not need has no part in its value, not even where it has none
+itself.
 """
 
 from __future__ import annotations

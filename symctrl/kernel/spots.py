@@ -2,10 +2,10 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on the theorems of `enclosure`, `traits` and `chain`. Near the point a switch whose argument is not zero
-there is constant, and |a|, roots and powers are smooth where their argument is not at the edge of its domain.
-A switch whose argument is zero there is active; it takes the value that is asked for, 0 if none is. A gradient
-that is not defined, or not known to be, is LOST, and so is all that is made of it.
+Relies on the theorems of `enclosure`, `traits` and `chain`. Near the point a switch whose argument is not
+zero there is constant, and |a|, roots and powers are smooth where their argument is not at the edge of its
+domain. A switch whose argument is zero there is active; it takes the value that is asked for, 0 if none is. A
+gradient that is not defined, or not known to be, is LOST, and so is all that is made of it.
 """
 
 from __future__ import annotations
@@ -120,9 +120,7 @@ class Spots(Domain[Spot]):
         return replace(self.mul(a, a), nonnegative=True)
 
     def inv(self, a: Spot) -> Spot:
-        return Spot(
-            self.real.inv(a.number), self.read.inv(a.traits), self._slopes("INV", [a]), a.nonnegative
-        )
+        return Spot(self.real.inv(a.number), self.read.inv(a.traits), self._slopes("INV", [a]), a.nonnegative)
 
     def function(self, op: str, args: Sequence[Spot]) -> Spot:
         if op == "SIGN":
@@ -136,10 +134,8 @@ class Spots(Domain[Spot]):
     def _within(self, op: str, args: Sequence[Spot], traits: Traits) -> Traits:
         """What is smooth away from its edge is smooth near the point, if the point is away from it."""
         a = args[0].number
-        if op in ("ASIN", "ACOS"):
-            inside = a.magnitude < 1
-        else:
-            inside = a.lo > 0 or (op == "FABS" and a.hi < 0)
+        between = op in ("ASIN", "ACOS")
+        inside = a.magnitude < 1 if between else a.lo > 0 or (op == "FABS" and a.hi < 0)
         if inside:
             return replace(traits, level=max(x.traits.level for x in args))
         if op != "FABS" and not args[0].nonnegative:
