@@ -136,16 +136,7 @@ class Collector:
         if not isinstance(record, Named | Rate):
             raise StudyError(f"using: {used.text()} has no definition and no rate of one on its left")
         listing = f"using {record.label}"
-        self.add(listing, [used.right])
-        self._reach(listing)
-        made = replace(
-            made,
-            listings=self.listings,
-            scalars=self.scalars,
-            names=self.names,
-            motion=self.motion,
-            laws=self.laws,
-        )
+        made = self._grown(made, listing, used.right)
         if isinstance(record, Named):
             shown = self._scalars_of(record, used.left)
             names = dict(made.names) | {
@@ -168,16 +159,33 @@ class Collector:
         """The problem in which a symbol is a name for the right side of a proved equation."""
         shown = component_names(used.left.args[0].replace(".i", ".*"), used.left.shape, used.left.args[2])
         listing = f"using {used.left.args[0]}"
-        self.add(listing, [used.right])
-        self._reach(listing)
-        names = dict(made.names) | dict(self.names)
-        names |= {name: Meaning("value", (listing, k)) for k, name in enumerate(shown)}
+        made = self._grown(made, listing, used.right)
+        names = {name: Meaning("value", (listing, k)) for k, name in enumerate(shown)}
         return replace(
             made,
-            listings=dict(made.listings) | {n: t for n, t in self.listings.items() if n not in made.listings},
-            names=names,
-            scalars={n: k for n, k in (dict(self.scalars) | dict(made.scalars)).items() if n not in shown},
-            motion={n: of for n, of in (dict(self.motion) | dict(made.motion)).items() if n not in shown},
+            names=dict(made.names) | names,
+            scalars={n: k for n, k in made.scalars.items() if n not in shown},
+            motion={n: of for n, of in made.motion.items() if n not in shown},
+        )
+
+    def _grown(self, made: Problem, listing: str, expr: Expr) -> Problem:
+        """The problem with one more listing and what that brings; what was put in the place of names stays."""
+        tables = ("listings", "scalars", "names", "motion", "laws")
+        before = {table: set(getattr(self, table)) for table in tables}
+        self.add(listing, [expr])
+        self._reach(listing)
+        grown = {
+            table: dict(getattr(made, table))
+            | {n: x for n, x in getattr(self, table).items() if n not in before[table]}
+            for table in tables
+        }
+        return replace(
+            made,
+            listings=grown["listings"],
+            scalars=grown["scalars"],
+            names=grown["names"],
+            motion=grown["motion"],
+            laws=grown["laws"],
         )
 
     def _scalars_of(self, record: Named | Rate, expr: Expr) -> list[str]:

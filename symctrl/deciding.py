@@ -53,19 +53,21 @@ def decide(study: Study, entry: Entry, reading: str | None, store: Store | None,
                 claim = Conforms(_body(study, entry, claim))
             using = tuple(_used(study, other) for other in entry.using)
             if isinstance(claim, Theorem):
-                return _theorem(study, entry, claim, bool(marks))
+                return _theorem(study, entry, claim, using, bool(marks))
             found = tuple(parts(study, claim, entry.id, using=using))
         except (Nonconforming, UndefinedLetter) as error:
             return Decided(None, (), Verdict(Outcome.ILL_FORMED, str(error)), of_graph=bool(marks))
         return Decided(claim, found, verdict_of(found, store), using, bool(marks))
 
 
-def _theorem(study: Study, entry: Entry, claim: Theorem, of_graph: bool) -> Decided:
+def _theorem(
+    study: Study, entry: Entry, claim: Theorem, using: tuple[Used, ...], of_graph: bool
+) -> Decided:
     from symctrl.rules import theorems
 
-    made = theorems.decide(study, claim, entry.id, entry.equation)
+    made = theorems.decide(study, claim, entry.id, entry.equation, using)
     part = Part(made.problem)
-    return Decided(claim, (part,), made.verdict, (), of_graph, made.rows, made.rests_on, made.unmet)
+    return Decided(claim, (part,), made.verdict, using, of_graph, made.rows, made.rests_on, made.unmet)
 
 
 def _used(study: Study, entry: Entry) -> Used:

@@ -44,13 +44,15 @@ class Theorem(Statement):
     """What holds for every solution of the closed loop, under what is given.
 
     given: assumptions by what they are about. suppose: facts assumed of solutions or signals. then: the
-    conclusions. laws: those that close the loop; None for all of the study.
+    conclusions. laws: those that close the loop; None for all of the study. free: definitions whose formulas
+    are not looked at: the theorem is for all their values.
     """
 
     given: tuple[About, ...]
     suppose: tuple[Fact, ...]
     then: tuple[Fact, ...]
     laws: tuple[Law, ...] | None = None
+    free: tuple[Definition, ...] = ()
 
     @property
     def kind(self) -> str:
@@ -67,12 +69,12 @@ class Theorem(Statement):
         return f"if {given}, then {then}" if given else then
 
 
-def claim(given: Any = (), then: Any = (), laws: Any = None) -> Theorem:
+def claim(given: Any = (), then: Any = (), laws: Any = None, free: Any = ()) -> Theorem:
     """A theorem: under what is given, every solution exists for all time and does what `then` says.
 
     given: assumptions (about parameters, or signals where they speak of one), `initially(..)`,
     `along_trajectory(..)`, and facts like summable(w). then: facts. laws: the laws that close the loop, all
-    of the study if left out. Raises TypeError.
+    of the study if left out. free: definitions that are signals here, with any values. Raises TypeError.
     """
     assumptions: list[About] = []
     suppose: list[Fact] = []
@@ -94,7 +96,7 @@ def claim(given: Any = (), then: Any = (), laws: Any = None) -> Theorem:
             raise TypeError(f"then: a conclusion is a fact like tends(x), not {fact!r}")
     if not conclusions:
         raise TypeError("then: a theorem concludes something, like then=[tends(x)]")
-    return Theorem(tuple(assumptions), tuple(suppose), tuple(conclusions), _laws(laws))
+    return Theorem(tuple(assumptions), tuple(suppose), tuple(conclusions), _laws(laws), _definitions(free))
 
 
 def initially(claim: Statement | Comparison) -> About:
@@ -326,6 +328,14 @@ def _laws(laws: Any) -> tuple[Law, ...] | None:
     for law in listed:
         if not isinstance(law, Law):
             raise TypeError(f"laws: {law!r} is no law of the study")
+    return tuple(listed)
+
+
+def _definitions(free: Any) -> tuple[Definition, ...]:
+    listed = _listed(free)
+    for one in listed:
+        if not isinstance(one, Definition):
+            raise TypeError(f"free: {one!r} is no definition of the study")
     return tuple(listed)
 
 

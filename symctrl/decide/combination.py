@@ -26,6 +26,7 @@ from symctrl.domains.field import Exact, Poly, coefficient
 MAX_CANDIDATES = 1500
 MAX_MONOMIALS = 400
 MAX_PRODUCTS = 25
+MAX_OCCURRING = 16
 MAX_PAIRED = 8  # symbols whose sums and differences are tried
 MAX_REPEATED = 4
 MAX_MULTIPLIERS = 4
@@ -125,9 +126,13 @@ def terms_of(
     if p.is_zero():
         return None if strict else []
     found = _by_factors(session, p, strict) or (_by_squares(session, p) if not strict else None)
+    if found is None and not strict and (parts := _parts(session, p)):
+        found = _by_parts(session, parts, known)
+        if not _is_tied(session, p):
+            return found
     found = found or _by_forms(session, p, strict, known) or _by_completion(session, p, strict, known)
     found = found or (_by_open_factor(session, p, known) if not strict else None)
-    for wide in (False, True):
+    for wide in (False, True) if len(session.domain.field.occurring(p)) <= MAX_OCCURRING else ():
         found = found or _by_programme(session, p, strict, _candidates(session, p, known, wide))
     return found
 
@@ -170,6 +175,53 @@ def _by_factors(session: Session, p: Poly, strict: bool) -> list[list[Any]] | No
         if e > certain:
             squares.append(field.json(f ** (e // 2)))
     return [[str(c), known, squares]]
+
+
+def _parts(session: Session, p: Poly) -> list[Poly]:
+    """Parts that share no symbol of unknown sign; none where there is only one."""
+    field, signs = session.domain.field, session.domain.signs
+    groups: list[tuple[set[int], dict[tuple[int, ...], Any]]] = []
+    for exponents, c in p.terms():
+        columns = {field.size - 1 - v for v, e in enumerate(exponents) if e}
+        made_of = columns.union(*(field.made_of(k) for k in columns if field.generators[k].kind != "sum"))
+        open_ = {k for k in made_of if signs.generator.get(k) not in ("positive", "nonnegative")}
+        open_ -= {k for k in open_ if _is_degree(session, k)}
+        merged = {tuple(map(int, exponents)): c}
+        rest = []
+        for own, terms in groups:
+            if own & open_ or (not own and not open_):
+                open_ |= own
+                merged |= terms
+            else:
+                rest.append((own, terms))
+        groups = [*rest, (open_, merged)]
+    return [field.context.from_dict(terms) for _, terms in groups] if len(groups) > 1 else []
+
+
+def _by_parts(session: Session, parts: Sequence[Poly], known: Known) -> list[list[Any]] | None:
+    """Each part by itself; where no assumption ties their symbols and one is negative, so is the sum somewhere."""
+    found: list[list[Any]] = []
+    for part in parts:
+        terms = terms_of(session, session.domain.polynomial(part), False, known)
+        if terms is None:
+            return None
+        found += terms
+    return found
+
+
+def _is_tied(session: Session, p: Poly) -> bool:
+    """Does an assumption speak of a symbol of unknown sign in p, or is there a part without one?"""
+    field, signs = session.domain.field, session.domain.signs
+    open_ = {k for k in field.occurring(p) if signs.generator.get(k) not in ("positive", "nonnegative")}
+    spoken = [*field.relations, *(fact for fact, _ in signs.facts)]
+    alone = any(not any(e[field.size - 1 - k] for k in open_) for e in p.monoms())
+    return alone or any(field.occurring(q) & open_ for q in spoken)
+
+
+def _is_degree(session: Session, k: int) -> bool:
+    """Is the generator a number of neighbours, which ties no symbols together?"""
+    g = session.domain.field.generators[k]
+    return g.kind == "sum" and bool(g.argument.is_constant())
 
 
 def _by_open_factor(session: Session, p: Poly, known: Known) -> list[list[Any]] | None:
@@ -230,7 +282,10 @@ def _by_squares(session: Session, p: Poly) -> list[list[Any]] | None:
 
 
 def _by_completion(session: Session, p: Poly, strict: bool, known: Known) -> list[list[Any]] | None:
-    """A completed square a (x + b)^2, with a known to be positive, and the rest without x."""
+    """A completed square a (x + b)^2, with a known to be positive, and the rest without x.
+
+    Of a form that is not negative any such square can come first: the first that there is decides.
+    """
     field, signs = session.domain.field, session.domain.signs
     for k in sorted(field.occurring(p)):
         if signs.generator.get(k) is not None or field.generators[k].kind != "free":
@@ -244,10 +299,10 @@ def _by_completion(session: Session, p: Poly, strict: bool, known: Known) -> lis
         square = field.variable(k) + half
         left = p - a * square * square
         terms = terms_of(session, session.domain.polynomial(left), strict, known)
-        if terms is not None:
-            number = a.is_constant()
-            c, factors = (str(coefficient(a)), []) if number else ("1", [field.json(a)])
-            return [[c, factors, [field.json(square)]], *terms]
+        if terms is None:
+            return None
+        c, factors = (str(coefficient(a)), []) if a.is_constant() else ("1", [field.json(a)])
+        return [[c, factors, [field.json(square)]], *terms]
     return None
 
 
@@ -259,12 +314,15 @@ def _by_scaled_completion(session: Session, value: Exact, known: Known) -> dict[
         if signs.generator.get(k) is not None or field.generators[k].kind != "free":
             continue
         a, b, c = (_coefficient(session, p, k, power) for power in (2, 1, 0))
-        if a.is_zero() or b.is_zero() or p.degrees()[field.size - 1 - k] != 2 or signs.of(a) != "positive":
+        if a.is_zero() or p.degrees()[field.size - 1 - k] != 2 or signs.of(a) != "positive":
             continue
+        if divmod(b, 2 * a)[1].is_zero():
+            continue  # then the square is completed without a multiplier
         terms = terms_of(session, session.domain.polynomial(4 * a * c - b * b), False, known)
-        if terms is not None:
-            square = 2 * a * field.variable(k) + b
-            return {"times": [field.json(4 * a)], "terms": [["1", [], [field.json(square)]], *terms]}
+        if terms is None:
+            return None
+        square = 2 * a * field.variable(k) + b
+        return {"times": [field.json(4 * a)], "terms": [["1", [], [field.json(square)]], *terms]}
     return None
 
 

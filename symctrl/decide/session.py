@@ -171,10 +171,10 @@ class Session:
         return index[name]
 
     def _learn(self, assumption: Assumption, binding: dict[str, str]) -> None:
+        if assumption.kind == "laplacian_bound":
+            return  # it is about the graph, and used by the proofs mode by mode
         values = [self.at(of, binding) for of in assumption.of]
         domain = self.domain
-        if assumption.kind == "laplacian_bound":
-            return
         if assumption.kind.startswith("positive_"):
             rows = [values[r :: assumption.size] for r in range(assumption.size)]
             self._learn_minors(rows, "positive" if assumption.kind == "positive_definite" else "nonnegative")

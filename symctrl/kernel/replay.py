@@ -82,9 +82,13 @@ class Replay(Domain[Value]):
         return any(self.field.factors[f] == p for f in self._used_factors)
 
     def assume_given(self) -> None:
-        """Evaluate what is given at node i, and at node j where the table has names of j; learn from it."""
+        """Evaluate what is given at node i, and at node j where the table has names of j; learn from it.
+
+        What is given of the graph is left to the proofs mode by mode.
+        """
         nodes = "ij" if any(split_name(name.rstrip("'"))[1] == "j" for name in self.free) else "i"
-        order = sorted(enumerate(self.statement.given), key=lambda pair: not self._is_plain(pair[1]))
+        about_values = [pair for pair in enumerate(self.statement.given) if pair[1].kind != "laplacian_bound"]
+        order = sorted(about_values, key=lambda pair: not self._is_plain(pair[1]))
         self._assuming = True
         for node in nodes:
             for k, assumption in order:
@@ -123,8 +127,6 @@ class Replay(Domain[Value]):
         return all(step.op in _PLAIN for step in steps)
 
     def _learn(self, assumption: Assumption, entries: list[Value]) -> None:
-        if assumption.kind == "laplacian_bound":
-            return  # it is about the graph, and used by the proofs mode by mode
         if assumption.kind == "zero":
             numerator = self.field.normal(self.field.fraction(entries[0])[0])
             if 0 not in self.signs.of(numerator):

@@ -190,8 +190,9 @@ class Path:
         return traits.level == SMOOTH and not traits.jumps
 
     def reads_time(self, ref: Ref) -> bool:
-        reach = Reach(self.whole)
-        reach.listing(ref[0], "", 0, None)
+        only = {OBLIGATION: single(self.whole.listings[ref[0]], ref[1])}
+        reach = Reach(replace(self.whole, listings={**self.whole.listings, **only}))
+        reach.listing(OBLIGATION, "", 0, None)
         return self.time in reach.read
 
     def solve(self) -> None:

@@ -67,10 +67,10 @@ class Offer:
         return self.values
 
     def shown(self) -> str:
-        """The values that were offered, and then those of the study."""
+        """The values that were offered, in their order."""
         offered = self.counterexample.values
-        chosen = {n: v for n, v in self.values.items() if n in offered or n.partition("[")[0] in offered}
-        parts = [f"{name} = {value}" for name, value in (chosen or self.values).items()]
+        chosen = [n for key in offered for n in self.values if key in (n, n.partition("[")[0])]
+        parts = [f"{name} = {self.values[name]}" for name in chosen or self.values]
         return ", ".join(parts[:SHOWN]) + (", .." if len(parts) > SHOWN else "")
 
     def made(self, proof: Table, says: str, witness: Table) -> Refuted:

@@ -74,8 +74,12 @@ class Algebra:
         return maker.finish(value)
 
 
-def algebra(chain: Chain, quantities: Sequence[str], work: Callable[[Algebra], Result]) -> Result | None:
-    """`work` on the exact values of quantities; None where these have no exact meaning."""
+def algebra(
+    chain: Chain, quantities: Sequence[str], work: Callable[[Algebra], Result], relations: bool = False
+) -> Result | None:
+    """`work` on the exact values of quantities, by themselves or reduced by the equations that are assumed; None
+    where these have no exact meaning.
+    """
     from symctrl.rules.seeker import NO_MEANING
 
     listings = [chain.at.statement.listings[name] for name in quantities]
@@ -87,7 +91,8 @@ def algebra(chain: Chain, quantities: Sequence[str], work: Callable[[Algebra], R
     stated = replace(
         whole, listings={**whole.listings, OBLIGATION: Listing(code, outputs, "")}, given=(), claim=claim
     )
-    problem = chain.seeker.problem(stated, ())
+    given = [a for a in chain.at.available if a.kind == "zero"] if relations else []
+    problem = chain.seeker.problem(stated, given)
     try:
         return exactly(problem, lambda s: work(Algebra(s, s.claim(), problem.scalars)))
     except NO_MEANING:

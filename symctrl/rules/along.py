@@ -139,13 +139,16 @@ class _Search:
 
     def samples(self, k: int, level: int) -> dict[Fraction, list[Interval]]:
         """Output k of the claim and its derivatives at some times, where they have values."""
-        whole = trajectory._composed(self.offer.statement, self.table)
-        return {
-            time: found
-            for time in SAMPLES
-            if (self.until is None or time < self.until)
-            and (found := _derivatives(whole, (self.offer.statement.claim.listing, k), time, level))
-        }
+        times = [time for time in SAMPLES if self.until is None or time < self.until]
+        found = {time: self._derivatives(k, time, level) for time in times}
+        return {time: values for time, values in found.items() if values}
+
+    def begin(self, k: int) -> list[Interval]:
+        return self._derivatives(k, Fraction(0), 3)
+
+    def _derivatives(self, k: int, time: Fraction, level: int) -> list[Interval]:
+        ref = (self.offer.statement.claim.listing, k)
+        return _derivatives(trajectory._composed(self.offer.statement, self.table), ref, time, level)
 
 
 def _derivatives(whole: Any, ref: tuple[str, int], time: Fraction, level: int) -> list[Interval]:
@@ -206,18 +209,10 @@ class _Trials:
 
     def _still(self, entry: int, k: int, more: Table, names: str = "ck") -> Iterator[Table]:
         """e^2 + w e'^2 >= c, with w = 0, those of an oscillation about zero, and 1."""
-        found = self.search.samples(k, 2) or self.search.samples(k, 0)
-        if not found:
-            return
-        begin = found.get(Fraction(0), [])
-        weights = [
-            Fraction(0),
-            *(_weight(begin) if "k" in names else ()),
-            *([Fraction(1)] if "k" in names else []),
-        ]
-        for weight in dict.fromkeys(weights):
-            if weight and any(len(values) < 2 for values in found.values()):
-                continue
+        found = self.search.samples(k, 1) if "k" in names else {}
+        weights = [Fraction(0), *_weights(self.search.begin(k)), Fraction(1)] if found else [Fraction(0)]
+        found = found or self.search.samples(k, 0)
+        for weight in dict.fromkeys(weights) if found else ():
             sizes = [_size(values, weight) for values in found.values()]
             for c in _below(min(size.hi for size in sizes), [size.lo for size in sizes if size.thin]):
                 yield {"c": str(c), "entry": entry, **({"k": str(weight)} if "k" in names else {}), **more}
@@ -230,11 +225,10 @@ def _size(values: Sequence[Interval], weight: Fraction) -> Interval:
     return size
 
 
-def _weight(begin: Sequence[Interval]) -> list[Fraction]:
-    """1/w^2 for e'' = -w^2 e, read off at t = 0."""
-    if len(begin) == 3 and begin[0].thin and begin[2].thin and begin[0].lo * begin[2].lo < 0:
-        return [-begin[0].lo / begin[2].lo]
-    return []
+def _weights(begin: Sequence[Interval]) -> list[Fraction]:
+    """1/w^2 for e'' = -w^2 e, read off the value and three derivatives at t = 0."""
+    pairs = [(a.lo, b.lo) for a, b in zip(begin, begin[2:], strict=False) if a.thin and b.thin]
+    return [-a / b for a, b in pairs if a * b < 0]
 
 
 def _below(most: Fraction, exact: Sequence[Fraction]) -> list[Fraction]:

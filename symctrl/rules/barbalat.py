@@ -52,7 +52,9 @@ def _over_nodes(
     total = carries.total_of(chain, e)
     factors = [chain.q(least)] if least is not None else [None, *carries.products(chain)]
     for factor in factors:
-        yield {"e": e, "W": W, "power": "total", "total": total} | rate | ({"least": factor} if factor else {})
+        yield (
+            {"e": e, "W": W, "power": "total", "total": total} | rate | ({"least": factor} if factor else {})
+        )
 
 
 def _factors(chain: Chain, W: str, e: str, words: Mapping[str, str], least: Any) -> list[str | None]:

@@ -10,6 +10,8 @@ from symctrl.entries import component_names
 from symctrl.expr import Expr, lift, symbol
 from symctrl.facts import SETS, Fact
 from symctrl.graph import Instruction, Tape
+from symctrl.kernel.argument import single as single_output
+from symctrl.kernel.closure import Reach
 from symctrl.kernel.compose import composed
 from symctrl.kernel.values import Sentence
 from symctrl.problem import split
@@ -35,7 +37,11 @@ def carries(chain: Chain, what: What) -> bool:
     if fact.word in SETS:
         return sets(chain, fact, parts)
     names = chain.qs(parts)
-    hints = {k: v for k, v in what.items() if k != "fact" and v is not None and not (isinstance(v, tuple) and not v)}
+    hints = {
+        k: v
+        for k, v in what.items()
+        if k != "fact" and v is not None and not (isinstance(v, tuple) and not v)
+    }
     if hints:
         return all([_hinted(chain, fact.word, name, hints) for name in names])
     for name in names:
@@ -61,10 +67,14 @@ def _hinted(chain: Chain, word: str, name: str, hints: Mapping[str, Any]) -> boo
     more = {k: chain.q(hints[k]) for k in ("least", "offset", "divisor") if k in hints}
     for one in by:
         ensure(chain, word, one)
+    if "divisor" in more:
+        ensure(chain, "apart", more["divisor"])
     if word == "tends" and "times" in hints:
+        times = chain.qs(hints["times"])
+        for factor in times:
+            ensure(chain, "bounded", factor)
         return chain.run(
-            "carries",
-            {"word": word, "how": "combination", "e": name, "of": by, "times": chain.qs(hints["times"])} | more,
+            "carries", {"word": word, "how": "combination", "e": name, "of": by, "times": times} | more
         )
     if word == "bounded" and "rate" in hints:
         return chain.run("carries", {"word": word, "how": "rate", "e": name, "by": chain.q(hints["rate"])})
@@ -86,9 +96,10 @@ def _hinted(chain: Chain, word: str, name: str, hints: Mapping[str, Any]) -> boo
 
 def speaks_of_all(chain: Chain, name: str) -> bool:
     """Has the quantity a sum over all nodes in it?"""
-    code = chain.at.statement.listings[name].code
+    reach = Reach(chain.at.statement)
+    reach.listing(name, "ij", 0, None)
     names = chain.at.statement.names
-    return any(step.op == "INPUT" and step.name in names and names[step.name].kind == "total" for step in code)
+    return any(key in names and names[key].kind == "total" for key in reach.read)
 
 
 def total_of(chain: Chain, name: str, power: int = 2) -> str:
@@ -122,7 +133,13 @@ def ensure(chain: Chain, word: str, name: str) -> bool:
     """Is the fact known, or can it be carried over without being asked?"""
     if chain.at.has(word, name):
         return True
-    ways = {"bounded": bounded, "tends": tends, "summable": summable, "exponentially": exponentially}
+    ways = {
+        "bounded": bounded,
+        "tends": tends,
+        "summable": summable,
+        "exponentially": exponentially,
+        "apart": stays_apart,
+    }
     way = ways.get(word)
     return way is not None and way(chain, name)
 
@@ -144,11 +161,16 @@ def _directly_bounded(chain: Chain, name: str) -> bool:
             table: dict[str, Any] = {"word": "bounded", "how": "square", "e": name, "by": [V]}
             if chain.attempt("carries", table | ({"least": least} if least else {})):
                 return True
-    for offset in offsets(chain, name):
-        if chain.attempt("carries", {"word": "bounded", "how": "square", "e": name, "by": [], "offset": offset}):
-            return True
+    if bounded_by_constants(chain, name):
+        return True
     near = [V for V in chain.having("bounded") if _shares(chain, V, name)]
     return any(_shifted(chain, V, name) or _solved(chain, V, name) for V in near)
+
+
+def bounded_by_constants(chain: Chain, name: str) -> bool:
+    """By a relation or by assumed bounds, without any function."""
+    table = {"word": "bounded", "how": "square", "e": name, "by": []}
+    return any(chain.attempt("carries", table | {"offset": offset}) for offset in offsets(chain, name))
 
 
 def _solved(chain: Chain, s: str, name: str) -> bool:
@@ -220,14 +242,16 @@ def tends(chain: Chain, name: str) -> bool:
             chain.attempt(rule, table)
     if _sum_of_small(chain, name):
         return True
+    combinations(chain, [name])
+    if chain.at.has("tends", name):
+        return True
     decaying = chain.having("tends") + chain.having("exponentially")
     for V in [V for V in dict.fromkeys(decaying) if _shares(chain, V, name)]:
         for least in (None, *squares_in(chain, V, name)):
             table: dict[str, Any] = {"word": "tends", "how": "square", "e": name, "by": V}
             if chain.attempt("carries", table | ({"least": least} if least else {})):
                 return True
-    combinations(chain, [name])
-    return chain.at.has("tends", name)
+    return False
 
 
 def _sum_of_small(chain: Chain, name: str) -> bool:
@@ -248,6 +272,31 @@ def summable(chain: Chain, name: str) -> bool:
             if chain.attempt("carries", table | ({"least": least} if least else {})):
                 return True
     return False
+
+
+def stays_apart(chain: Chain, name: str) -> bool:
+    """As a constant multiple of what does, or above its square."""
+    for z in chain.having("apart") + [q for q in _assumed_apart(chain) if chain.at.has("apart", q)]:
+        if z == name or chain.at.is_constant(z):
+            continue
+        tape = algebra(chain, [name, z], _constant_quotient, relations=True)
+        if tape is not None:
+            table = {"word": "apart", "how": "multiple", "e": name, "by": z, "times": chain.q(tape)}
+            if chain.attempt("carries", table):
+                return True
+        if chain.attempt("carries", {"word": "apart", "how": "above", "e": name, "by": z}):
+            return True
+    return False
+
+
+def _assumed_apart(chain: Chain) -> list[str]:
+    """The symbols that are assumed not to be zero along the trajectory, as quantities."""
+    found = []
+    for assumption in chain.at.available:
+        if assumption.kind in ("nonzero", "positive") and chain.at.reads_states(assumption):
+            listing, k = assumption.of[0]
+            found.append(chain.q(tape_of(single_output(chain.at.statement.listings[listing], k))))
+    return found
 
 
 def exponentially(chain: Chain, name: str) -> bool:
@@ -293,9 +342,7 @@ def _is_half(found: Algebra) -> bool:
 
 def claim_quantity(chain: Chain, k: int) -> str:
     """Output k of the theorem's claim as a quantity."""
-    from symctrl.kernel.argument import single
-
-    return chain.q(tape_of(single(chain.loop.statement.listings["claim"], k)))
+    return chain.q(tape_of(single_output(chain.loop.statement.listings["claim"], k)))
 
 
 def sets(chain: Chain, fact: Fact, parts: Sequence[Expr]) -> bool:
@@ -320,7 +367,9 @@ def set_of(chain: Chain, word: str, zero: bool, names: Sequence[str], time: str 
                 "by": [inner],
                 "by_zeros": "yes" if inner_zero else "no",
             } | ({} if time is None else {"time": time})
-            known = at.set_key(inner_zero, [at.traits(inner).key], "" if time is None else at.traits(time).key)
+            known = at.set_key(
+                inner_zero, [at.traits(inner).key], "" if time is None else at.traits(time).key
+            )
             if (word, known) in at.facts and chain.attempt("carries", table):
                 return True
     if word == "stays" and not zero and all(chain.attempt("keeps", {"g": name}) for name in names):
@@ -366,18 +415,21 @@ def bounded_reads(chain: Chain, listing: str) -> None:
 def bounded_states(chain: Chain) -> None:
     """Carry boundedness over to every state for which that succeeds."""
     names = {state: chain.q(bare(state)) for state in chain.at.statement.motion}
-    open_ = [state for state in names if not chain.at.state_is_bounded(state)]
-    for state in open_:
-        if not bounded(chain, names[state]):
-            continue
+    for state in names:
+        if not chain.at.state_is_bounded(state):
+            bounded_by_constants(chain, names[state])
+    forms(chain, [names[state] for state in names if not chain.at.state_is_bounded(state)])
+    for state in names:
+        if not chain.at.state_is_bounded(state):
+            bounded(chain, names[state])
     for rate in chain.at.field().values():
-        for name in sorted(n for n in rate.reads if chain.at.is_signal(n) and not chain.at.free_is_bounded(n)):
+        for name in sorted(
+            n for n in rate.reads if chain.at.is_signal(n) and not chain.at.free_is_bounded(n)
+        ):
             bounded(chain, chain.q(bare(name.replace(".j", ".i"))))
     left = [names[state] for state in names if not chain.at.state_is_bounded(state)]
-    if left:
-        forms(chain, left)
-        for name in left:
-            bounded(chain, name)
+    for name in left:
+        bounded(chain, name)
 
 
 def forms(chain: Chain, names: Sequence[str]) -> None:
@@ -398,7 +450,13 @@ def _form(chain: Chain, V: str, column: Sequence[str]) -> bool:
     entries = algebra(chain, [V, *column], _hessian)
     if not entries:
         return False
-    table = {"word": "bounded", "how": "form", "e": list(column), "P": [chain.q(t) for t in entries], "by": [V]}
+    table = {
+        "word": "bounded",
+        "how": "form",
+        "e": list(column),
+        "P": [chain.q(t) for t in entries],
+        "by": [V],
+    }
     return chain.attempt("carries", table)
 
 
@@ -434,7 +492,9 @@ def squares_in(chain: Chain, V: str, name: str, power: str = "e e *") -> list[st
     below = chain.q(tape_of(composed(chain.at.statement.listings, [power], {"e": name})))
     tapes = [tape, algebra(chain, [V, below], _constant_quotient)]
     own = [chain.q(t) for t in tapes if t is not None]
-    return list(dict.fromkeys([*own, chain.q("1/2"), *factors(chain)]))
+    listings = chain.at.statement.listings
+    halves = [chain.q(tape_of(composed(listings, ["a 2 /"], {"a": a}))) for a in own]
+    return list(dict.fromkeys([*own, *halves] if own else [chain.q("1/2"), *factors(chain)]))
 
 
 def _constant_quotient(found: Algebra) -> Tape | None:
@@ -493,9 +553,7 @@ def offsets(chain: Chain, name: str) -> Iterator[str]:
     """Constants that may bound the square: 1, and products of the two bounds of a symbol that are assumed."""
     yield chain.q("1")
     bounds = [a for a in chain.at.available if a.kind in ("nonnegative", "positive") and len(a.of) == 1]
-    from symctrl.kernel.argument import single
-
-    tapes = [tape_of(single(chain.at.statement.listings[a.of[0][0]], a.of[0][1])) for a in bounds]
+    tapes = [tape_of(single_output(chain.at.statement.listings[a.of[0][0]], a.of[0][1])) for a in bounds]
     reads = chain.at.traits(name).reads
     tapes = [t for t in tapes if reads & set(t.inputs)]
     if not tapes or len(tapes) > 12:

@@ -49,7 +49,8 @@ class Done:
 class Chain:
     """The state of an argument on its way: the loop, the facts, and the kernel's lines so far.
 
-    again: lines that may give more once more is known of their input, or that solutions exist.
+    again: lines that may give more once more is known of their input, or that solutions exist. broken: a line has
+    failed; those below are tried without looking for refutations.
     """
 
     loop: Loop
@@ -60,6 +61,7 @@ class Chain:
     conditions: set[Condition] = field(default_factory=set)
     outcomes: list[Outcome] = field(default_factory=list)
     again: list[tuple[str, Table]] = field(default_factory=list)
+    broken: bool = False
 
     def __post_init__(self) -> None:
         self.at = Argument(self.loop.statement, (), self.seeker)
@@ -82,13 +84,17 @@ class Chain:
 
     def having(self, word: str) -> list[str]:
         """The quantities with a fact, in the order in which they came."""
-        return [name for name in self.loop.quantities if any((word, key) in self.at.facts for key in self.at.keys(name))]
+        return [
+            name
+            for name in self.loop.quantities
+            if any((word, key) in self.at.facts for key in self.at.keys(name))
+        ]
 
     # Lines of the kernel
 
     def run(self, rule: str, table: Mapping[str, Any]) -> bool:
         """Try a line with all its obligations, refuting where it can; its facts count if all are met."""
-        met = self._tried(rule, table, thorough=True)
+        met = self._tried(rule, table, thorough=not self.broken)
         self.outcomes += self.seeker.outcomes
         return met
 
@@ -141,9 +147,11 @@ class Chain:
 
     # The whole
 
-    def decided(self, lines: Sequence[Line], planners: Mapping[str, Callable[[Chain, Mapping[str, Any]], bool]]) -> Iterator[Done]:
+    def decided(
+        self, lines: Sequence[Line], planners: Mapping[str, Callable[[Chain, Mapping[str, Any]], bool]]
+    ) -> Iterator[Done]:
         """The author's lines in turn; below a broken one those that fail for want of a fact are blocked."""
-        broken = any(not o.met for o in self.outcomes)
+        self.broken = any(not o.met for o in self.outcomes)
         for line in lines:
             self.outcomes = []
             try:
@@ -151,9 +159,9 @@ class Chain:
             except (Invalid, Declined) as error:
                 met = self.fail(line.rule, str(error))
             done = Done(line, tuple(self.outcomes))
-            if not met and broken and not any(o.witness for o in self.outcomes if not o.met):
-                done = Done(line, tuple(self.outcomes), blocked=True)
-            broken = broken or not met
+            if not met and self.broken:
+                done = Done(line, tuple(o for o in self.outcomes if o.met), blocked=True)
+            self.broken = self.broken or not met
             yield done
 
     def open_conclusions(self) -> list[Sentence]:
@@ -163,7 +171,9 @@ class Chain:
 
     def certificate(self) -> Table:
         """The certificate of the whole argument, with the lines and quantities that it needs."""
-        used = list(dict.fromkeys(name for step in self.steps for name in _named(step["of"], self.at.quantities)))
+        used = list(
+            dict.fromkeys(name for step in self.steps for name in _named(step["of"], self.at.quantities))
+        )
         proof = {
             "kind": "argument",
             **self.loop.added(used),

@@ -72,9 +72,7 @@ def search(found: Algebra, names: list[str], known: list[str]) -> dict[str, Foun
     return ways | _linear(found, {n: values[n] for n in rest}, {n: values[n] for n in known}, small)
 
 
-def _directly(
-    found: Algebra, value: Exact, known: dict[str, Exact], small: dict[int, str]
-) -> Found | None:
+def _directly(found: Algebra, value: Exact, known: dict[str, Exact], small: dict[int, str]) -> Found | None:
     """Every term has a factor that tends to zero, as it is or after division by what tends to zero."""
     domain, field = found.session.domain, found.session.domain.field
     split = _split(found, value, small)
@@ -107,7 +105,9 @@ def _split(found: Algebra, value: Exact, small: dict[int, str]) -> tuple[dict[st
     parts: dict[str, Exact] = {}
     rest: Exact = {}
     for key, p in found.session.domain.simplified(value).items():
-        if not found.is_constant({(): reduce(lambda a, b: a * b, (field.factors[f] for f, _ in key), field.polynomial(1))}):
+        if not found.is_constant(
+            {(): reduce(lambda a, b: a * b, (field.factors[f] for f, _ in key), field.polynomial(1))}
+        ):
             return None
         groups: dict[str | None, dict[tuple[int, ...], Any]] = {}
         for exponents, c in p.terms():
@@ -173,7 +173,11 @@ def _row(found: Algebra, name: str, value: Exact, unknown: list[int], small: dic
         coefficients.append(c.get((), field.polynomial(0)))
         rest = domain.sub_(rest, {(): coefficients[-1] * field.variable(g)})
     fits = not domain.simplified(rest) and all(found.is_constant({(): c}) for c in coefficients)
-    return _Row(name, {(): below}, coefficients, parts) if fits and any(not c.is_zero() for c in coefficients) else None
+    return (
+        _Row(name, {(): below}, coefficients, parts)
+        if fits and any(not c.is_zero() for c in coefficients)
+        else None
+    )
 
 
 def _solved(found: Algebra, names: list[str], rows: Sequence[_Row]) -> dict[str, Found]:

@@ -41,7 +41,10 @@ def _ways(
     sources = _sources(chain, what["zero"], zeros, order)
     names = [*limits, *(name for name in sources if name not in limits)]
     known = list(sources)
-    found = algebra(chain, names + [n for n in known if n in limits], lambda a: _search(a, limits, known, names)) or {}
+    found = (
+        algebra(chain, names + [n for n in known if n in limits], lambda a: _search(a, limits, known, names))
+        or {}
+    )
     implied = {}
     for name, way in found.items():
         multiple = chain.q(_product(chain, name, way))
@@ -54,14 +57,18 @@ def _ways(
     return ways + ([{"order": {"rates": order}}] if size <= MAX_TERMS else [])
 
 
-def _search(found: Algebra, limits: Sequence[str], known: Sequence[str], names: Sequence[str]) -> dict[str, Found]:
+def _search(
+    found: Algebra, limits: Sequence[str], known: Sequence[str], names: Sequence[str]
+) -> dict[str, Found]:
     values = dict(zip(names, found.values, strict=False))
     unknown = [name for name in limits if name not in known]
     ordered = Algebra(found.session, [values[n] for n in [*unknown, *known]], found.scalars)
     return search(ordered, unknown, list(known))
 
 
-def _sources(chain: Chain, exprs: Sequence[Any], zeros: Sequence[str], order: int) -> dict[str, tuple[str, int]]:
+def _sources(
+    chain: Chain, exprs: Sequence[Any], zeros: Sequence[str], order: int
+) -> dict[str, tuple[str, int]]:
     """e and its rates as quantities, each with the zero and the order that it is."""
     sources: dict[str, tuple[str, int]] = {}
     for expr, zero in zip(exprs, zeros, strict=True):

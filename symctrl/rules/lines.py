@@ -83,7 +83,8 @@ def edges(chain: Chain) -> list[str]:
         key = chain.at.traits(name).key
         if key in wanted:
             wanted.discard(key)
-            found.append(name)
+            if not carries.ensure(chain, "apart", name):
+                found.append(name)
     return found
 
 

@@ -36,7 +36,12 @@ class Loop:
     """
 
     def __init__(
-        self, study: Study, theorem: Theorem, id_: str, using: Sequence[Used] = (), changed: Changed | None = None
+        self,
+        study: Study,
+        theorem: Theorem,
+        id_: str,
+        using: Sequence[Used] = (),
+        changed: Changed | None = None,
     ) -> None:
         self.study = study
         self.theorem = theorem
@@ -128,7 +133,9 @@ class Loop:
         whole = reached(self._tables(old), ["claim", *used], self.law)
         return {
             "listings": {
-                n: t.as_json() | {"sha256": t.sha256} for n, t in whole.listings.items() if n not in old.listings
+                n: t.as_json() | {"sha256": t.sha256}
+                for n, t in whole.listings.items()
+                if n not in old.listings
             },
             "names": {n: m.as_json() for n, m in whole.names.items() if n not in old.names},
             "scalars": {n: k for n, k in whole.scalars.items() if n not in old.scalars},
@@ -143,7 +150,9 @@ class Loop:
                 self.collector._law(law.name)
         done: set[str] = set()
         while True:
-            states = [n for n, kind in self.collector.scalars.items() if kind != "parameter" and n not in done]
+            states = [
+                n for n, kind in self.collector.scalars.items() if kind != "parameter" and n not in done
+            ]
             if not states:
                 return
             for name in states:
@@ -174,10 +183,18 @@ class Loop:
         )
         for used in self.using:
             if isinstance(used.claim, Equal):
-                made = replace(c._replaced(made, used.claim), laws=laws)
+                made = c._replaced(made, used.claim)
+        made = self._freed(made)
         names = {n: replace(m, law=self.law) if m.law in own else m for n, m in made.names.items()}
         listings = {name: tape for name, tape in made.listings.items() if name != ADVICE}
         return replace(made, names=names, listings=listings, uses=self._uses())
+
+    def _freed(self, made: Problem) -> Problem:
+        """The problem with the definitions that are free as signals."""
+        own = {definition.entry.id for definition in self.theorem.free}
+        freed = {n for n in made.names if split(n)[0] in own}
+        names = {n: m for n, m in made.names.items() if n not in freed}
+        return replace(made, names=names, scalars=dict(made.scalars) | dict.fromkeys(freed, "signal"))
 
     def _uses(self) -> tuple[Use, ...]:
         return tuple(Use(used.id, used.sha256, f"using {used.id}") for used in self.using)
@@ -259,7 +276,9 @@ def scalars_at(study: Study, at: Mapping[str, Sequence[Any]], what: str) -> dict
             raise StudyError(f"{what}: {name} is no symbol of {study.name}; it has {', '.join(near)}")
         names = component_names(name, declared.expr.shape, declared.expr.args[2])
         if len(names) != len(numbers):
-            raise StudyError(f"{what}: {name} has {len(names)} components, and {len(numbers)} numbers were given")
+            raise StudyError(
+                f"{what}: {name} has {len(names)} components, and {len(numbers)} numbers were given"
+            )
         found |= dict(zip(names, numbers, strict=True))
     return found
 

@@ -60,7 +60,9 @@ class Seeker:
         usable = at.usable(obligation)
         problem = self.problem(at.composed(obligation, usable), usable)
         key = problem.sha256
-        if key not in self.known or (self.thorough and not self.known[key].met and not self.known[key].witness):
+        if key not in self.known or (
+            self.thorough and not self.known[key].met and not self.known[key].witness
+        ):
             self.known[key] = self._outcome(at, obligation, usable, problem)
         self.outcomes.append(replace(self.known[key], role=obligation.role))
 
@@ -130,7 +132,11 @@ class Seeker:
         return self._refuted(obligation, problem, numbers, reason)
 
     def _of_totals(
-        self, at: Argument, obligation: Obligation, usable: Sequence[kernel.Assumption], numbers: tuple[int, ...]
+        self,
+        at: Argument,
+        obligation: Obligation,
+        usable: Sequence[kernel.Assumption],
+        numbers: tuple[int, ...],
     ) -> tuple[tuple[int, ...], Any]:
         """A proof node by node, or mode by mode without the equations about states."""
         statement = at.composed(obligation, [usable[k] for k in numbers])
@@ -147,7 +153,9 @@ class Seeker:
         statement = at.composed(obligation, [usable[k] for k in chosen])
         return chosen, totals.spectral(statement, problem, self.problem)
 
-    def _refuted(self, obligation: Obligation, problem: Problem, numbers: tuple[int, ...], reason: str) -> Outcome:
+    def _refuted(
+        self, obligation: Obligation, problem: Problem, numbers: tuple[int, ...], reason: str
+    ) -> Outcome:
         try:
             found = DECIDERS[problem.claim.kind](problem)
         except NO_MEANING as error:

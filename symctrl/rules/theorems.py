@@ -21,6 +21,7 @@ from symctrl.verdict import Condition, Verdict
 from symctrl.verdict import Outcome as Verdicts
 
 if TYPE_CHECKING:
+    from symctrl.collect import Used
     from symctrl.study import Study
 
 PHRASES = {"exists": "solutions exist for all time"}
@@ -68,11 +69,12 @@ class Decided:
     tried: tuple[Tried, ...] = field(default=())
 
 
-def decide(study: Study, theorem: Theorem, id_: str, equation: str) -> Decided:
+def decide(study: Study, theorem: Theorem, id_: str, equation: str, using: Sequence[Used] = ()) -> Decided:
     """The verdict with the definitions and laws of the instance at hand. Raises StudyError."""
-    loop = Loop(study, theorem, id_)
+    loop = Loop(study, theorem, id_, using)
     refuse_assumed_conclusions(loop, id_)
-    tried = [attempt(study, theorem, id_, entry) for entry in study.arguments if entry.theorem == id_]
+    entries = [entry for entry in study.arguments if entry.theorem == id_]
+    tried = [attempt(Loop(study, theorem, id_, using), entry) for entry in entries]
     rows = tuple(row for one in tried for row in rows_of(one, id_, equation))
     closing = next((one for one in tried if one.closes), None)
     refuted = _refuted(study, loop, id_)
@@ -96,9 +98,9 @@ def decide(study: Study, theorem: Theorem, id_: str, equation: str) -> Decided:
     return Decided(loop.problem, Verdict(Verdicts.UNDECIDED, reason, "rules"), rows, (), unmet, tuple(tried))
 
 
-def attempt(study: Study, theorem: Theorem, id_: str, entry: ArgumentEntry, thorough: bool = True) -> Tried:
+def attempt(loop: Loop, entry: ArgumentEntry, thorough: bool = True) -> Tried:
     """One argument, line by line, with a certificate where it closes."""
-    chain = Chain(Loop(study, theorem, id_), Seeker(id_, thorough))
+    chain = Chain(loop, Seeker(loop.problem.id, thorough))
     begin = tuple(chain.outcomes)
     lines = tuple(chain.decided(recorded(entry.function), PLANNERS))
     whole = all(o.met for o in begin) and all(done.met for done in lines)
@@ -133,9 +135,7 @@ def refuse_assumed_conclusions(loop: Loop, id_: str) -> None:
     at = Argument(loop.statement, (), Seeker(id_))
     claim = loop.statement.claim
     supposed = {(s.word, output_key(at, k)) for s in claim.suppose for k in s.of}
-    along = {
-        (a.kind, at.output_traits(a.of[0]).key) for a in loop.statement.given if a.about == "trajectory"
-    }
+    along = {(a.kind, at.output_traits(a.of[0]).key) for a in loop.statement.given if a.about == "trajectory"}
     for sentence, fact in zip(claim.then, loop.theorem.then, strict=True):
         keys = [output_key(at, k) for k in sentence.of]
         kind = "zero" if sentence.zero or sentence.word == "tends" else "nonnegative"
@@ -250,7 +250,12 @@ def _refuted(study: Study, loop: Loop, id_: str) -> Verdict | list[str]:
         found = contradict(loop, entry.function(), entry.against)
         if not isinstance(found, str):
             return Verdict(
-                Verdicts.REFUTED, found.says, f"counterexample {entry.id}", (), found.certificate, found.witness
+                Verdicts.REFUTED,
+                found.says,
+                f"counterexample {entry.id}",
+                (),
+                found.certificate,
+                found.witness,
             )
         reasons.append(f"{entry.id} is no counterexample: {found}")
     return reasons

@@ -102,8 +102,9 @@ def _combination(at: Argument, of: Roles, word: str) -> None:
     total = "0" + "".join(f" c{k} z{k} * +" for k in range(len(parts)))
     left, roles = "e", {"e": e}
     if d is not None:
-        at.require_constant("the divisor is constant", d)
-        at.prove("the divisor is not zero", "positive", "d d *", d=d)
+        if not at.has("apart", d):
+            at.require_constant("the divisor is constant", d)
+            at.prove("the divisor is not zero", "positive", "d d *", d=d)
         left, roles = "e d *", roles | {"d": d}
     at.prove("e is the combination", "equal", [left, total], **roles, **named)
     at.learn(word, e)
@@ -158,6 +159,14 @@ def _apart_as_multiple(at: Argument, of: Roles) -> None:
     at.require_constant("the factor is constant", c)
     at.prove("the factor is not zero", "positive", "c c *", c=c)
     at.prove("e is the multiple", "equal", ["e", "c z *"], e=e, c=c, z=z)
+    at.learn("apart", e)
+
+
+def _apart_above(at: Argument, of: Roles) -> None:
+    """e^2 >= z^2."""
+    e, z = of.one("e"), of.one("by")
+    at.need("z stays apart from zero", "apart", z)
+    at.prove("the square is above that of z", "nonnegative", "e e * z z * -", e=e, z=z)
     at.learn("apart", e)
 
 
@@ -236,6 +245,7 @@ WAYS: dict[tuple[str, str], Callable[[Argument, Roles], None]] = {
     ("tends", "square"): _under,
     ("tends", "sum"): _sum_of_small,
     ("apart", "multiple"): _apart_as_multiple,
+    ("apart", "above"): _apart_above,
     ("summable", "parts"): _summable,
     ("exponentially", "square"): _rate,
     ("apart", "square"): _apart,
