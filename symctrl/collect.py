@@ -169,7 +169,7 @@ class Collector:
         )
 
     def _grown(self, made: Problem, listing: str, expr: Expr) -> Problem:
-        """The problem with one more listing and what that brings; what was put in the place of names stays."""
+        """The problem with one more listing and what it brings; what stands for names stays."""
         tables = ("listings", "scalars", "names", "motion", "laws")
         before = {table: set(getattr(self, table)) for table in tables}
         self.add(listing, [expr])

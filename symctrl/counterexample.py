@@ -13,8 +13,9 @@ t = symbol("t")  # time, in closed forms of trajectories
 
 @dataclass(frozen=True, eq=False)
 class Counterexample:
-    """kind: at, along, leaves, undefined, unstable or enclosed. values: by symbol, exact numbers or functions of
-    time (at a node of a fleet `q.1`). graph: the edges, for a fleet. until: of a trajectory, its last time.
+    """kind: at, along, leaves, undefined, unstable or enclosed. values: by symbol, exact numbers or functions
+    of time (at a node of a fleet `q.1`). graph: the edges, for a fleet. until: of a trajectory, its last
+    time.
     """
 
     kind: str
@@ -52,7 +53,9 @@ def unstable(_values: Mapping[str, Any] | None = None, **values: Any) -> Counter
 
 
 def enclosed(until: Any, _values: Mapping[str, Any] | None = None, **values: Any) -> Counterexample:
-    """The solution from exact initial values, rigorously enclosed up to a time, at which the conclusion fails."""
+    """The solution from exact initial values, rigorously enclosed up to a time, at which the conclusion
+    fails.
+    """
     return _made("enclosed", _values, values, None, until)
 
 

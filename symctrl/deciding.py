@@ -25,8 +25,8 @@ class Decided:
     """A claim with its problems and verdict.
 
     claim: what the function returned, None where it does not conform. using: the claims of the statements
-    that it uses. of_graph: the claim speaks of the instance's graph. below: the rows of a theorem's arguments;
-    steps: those that the proof consists of; unmet: those that are missing.
+    that it uses. of_graph: the claim speaks of the instance's graph. below: the rows of a theorem's
+    arguments; steps: those that the proof consists of; unmet: those that are missing.
     """
 
     claim: Any
@@ -60,9 +60,7 @@ def decide(study: Study, entry: Entry, reading: str | None, store: Store | None,
         return Decided(claim, found, verdict_of(found, store), using, bool(marks))
 
 
-def _theorem(
-    study: Study, entry: Entry, claim: Theorem, using: tuple[Used, ...], of_graph: bool
-) -> Decided:
+def _theorem(study: Study, entry: Entry, claim: Theorem, using: tuple[Used, ...], of_graph: bool) -> Decided:
     from symctrl.rules import theorems
 
     made = theorems.decide(study, claim, entry.id, entry.equation, using)

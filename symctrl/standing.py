@@ -48,7 +48,9 @@ def with_conditions(
     if open_ and _conditions(study, claim, using, row.id, study.all_values(), bool(assumed), store) == []:
         by |= dict.fromkeys(open_, "the exact values of the study")
     discharged = tuple(Discharged(str(c), by.get(str(c))) for c in verdict.conditions)
-    return replace(row, conditions=discharged, given=row.given + tuple(given), conditional=bool(given))
+    return replace(
+        row, conditions=discharged, given=row.given + tuple(given), conditional=row.conditional or bool(given)
+    )
 
 
 def _says(claim: Statement, condition: Condition) -> bool:

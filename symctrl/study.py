@@ -272,7 +272,8 @@ class Study:
     def counterexample(
         self, theorem: Entry | str, against: Fact | None = None
     ) -> Callable[[Callable[[], Any]], CounterexampleEntry]:
-        """Decorator: what contradicts a conclusion of a theorem (all its conclusions, if `against` is left out).
+        """Decorator: what contradicts a conclusion of a theorem (all its conclusions, if `against` is left
+        out).
 
         The function returns at(..), along(..), leaves(..), undefined(..) or unstable(..).
         """

@@ -82,7 +82,9 @@ def claim(given: Any = (), then: Any = (), laws: Any = None, free: Any = ()) -> 
         plain = claimed(one)
         if isinstance(plain, Fact):
             if plain.word not in SUPPOSABLE:
-                raise TypeError(f"given: {plain.text()} cannot be assumed; tends, bounded, apart, summable can")
+                raise TypeError(
+                    f"given: {plain.text()} cannot be assumed; tends, bounded, apart, summable can"
+                )
             suppose.append(plain)
         elif isinstance(plain, About):
             assumptions.append(plain)
@@ -184,7 +186,9 @@ class Run:
         """
         if outside is not None:
             if rate is None:
-                raise TypeError("decays(V, outside=r, rate=d): the rate d > 0 at which V falls outside is missing")
+                raise TypeError(
+                    "decays(V, outside=r, rate=d): the rate d > 0 at which V falls outside is missing"
+                )
             self._line("outside", V=_one(V), radius=lift(outside), rate=lift(rate), time=_maybe(time))
             return
         b, gamma, rho = (_maybe(x) for x in power) if power else (None, None, None)
@@ -211,9 +215,11 @@ class Run:
         """Every solution exists for all time, for every state is bounded and no edge is met."""
         self._line("exists")
 
-    def barbalat(self, *e: Any, of: Any = None, least: Any = None, power: Any = None, rate: Any = None) -> None:
-        """e tends to zero: |e|^power (2, or 1) times `least` is below the summable `of`, and its rate is bounded,
-        or below the summable `rate`. What is left out is looked for.
+    def barbalat(
+        self, *e: Any, of: Any = None, least: Any = None, power: Any = None, rate: Any = None
+    ) -> None:
+        """e tends to zero: |e|^power (2, or 1) times `least` is below the summable `of`, and its rate is
+        bounded, or below the summable `rate`. What is left out is looked for.
         """
         self._line(
             "barbalat",
@@ -229,17 +235,25 @@ class Run:
         self._line("barbalat_rate", e=_column(e))
 
     def lasalle(self, V: Any, zero: Any, limit: Any = None) -> None:
-        """V' <= 0, and zero only where `zero` is: the solutions tend to where it stays so; `limit` vanishes there."""
+        """V' <= 0, and zero only where `zero` is: the solutions tend to where it stays so; `limit` vanishes
+        there.
+        """
         zeros = _some(zero)
         self._line("lasalle", V=_one(V), zero=zeros, limit=zeros if limit is None else _some(limit))
 
     def lyapunov(self, V: Any, at: Mapping[str, Any], least: Any = None, radius: Any = None) -> None:
-        """The point is stable: V is zero there, V >= least |x - at|^2, V' <= 0, wherever |x - at|^2 <= radius."""
-        self._line("lyapunov", V=_one(V), at=point(at, "lyapunov"), least=_maybe(least), radius=_maybe(radius))
+        """The point is stable: V is zero there, V >= least |x - at|^2, V' <= 0, wherever |x - at|^2 <=
+        radius.
+        """
+        self._line(
+            "lyapunov", V=_one(V), at=point(at, "lyapunov"), least=_maybe(least), radius=_maybe(radius)
+        )
 
     def bounded(self, *e: Any, by: Any = (), least: Any = None, offset: Any = None, rate: Any = None) -> None:
         """e is bounded: composed of what is, or least e^2 <= offset + (sum of by), or by a summable rate."""
-        self._carries("bounded", e, by=_some(by), least=_maybe(least), offset=_maybe(offset), rate=_maybe(rate))
+        self._carries(
+            "bounded", e, by=_some(by), least=_maybe(least), offset=_maybe(offset), rate=_maybe(rate)
+        )
 
     def tends(self, *e: Any, by: Any = (), least: Any = None, times: Any = (), divisor: Any = None) -> None:
         """e tends to zero: divisor e is the sum of times by, or least e^2 <= by, where `by` tends to zero."""

@@ -123,7 +123,7 @@ def _made(study: Study, entry: Entry, id_: str, decided: Decided) -> Row:
         kind=_kind(decided.claim),
         verdict=verdict.outcome.value,
         stands=False,
-        conditional=False,
+        conditional=isinstance(decided.claim, Theorem) and _assumes_the_trajectory(decided.parts),
         reason=verdict.reason,
         method=verdict.method,
         reading=id_.partition("[")[2].rstrip("]") or entry.reading,
@@ -161,6 +161,10 @@ def _given(found: tuple[Part, ...]) -> tuple[Given, ...]:
             Given(a.text, a.about) for part in found for a in part.problem.given if a.about != PROVED
         )
     )
+
+
+def _assumes_the_trajectory(found: tuple[Part, ...]) -> bool:
+    return any(a.about == "trajectory" for part in found for a in part.problem.given)
 
 
 def _holds_for(study: Study, decided: Decided) -> str:

@@ -92,11 +92,17 @@ def test_a_symbol_that_the_study_does_not_declare_is_named(study):
         problem(study, equal(symbol("z"), 0))
 
 
-@pytest.mark.parametrize("left", ["a symbol", "the rate of an expression"])
-def test_using_takes_what_has_a_name_on_its_left(study, left):
-    used = study.x if left == "a symbol" else study.rate(study.x * study.y)
+def test_using_takes_what_has_a_name_on_its_left(study):
+    used = study.rate(study.x * study.y)
     with pytest.raises(StudyError, match=r"^using: "):
         Collector(study).problem(equal(study.x, 0), "claim", using=[Used("other", equal(used, 0), "0" * 64)])
+
+
+def test_using_an_equation_for_a_symbol_makes_it_a_name(study):
+    using = [Used("other", equal(study.x, study.y**2), "0" * 64)]
+    made = Collector(study).problem(equal(study.x, 0), "claim", using=using)
+    assert set(made.scalars) == {"y"}
+    assert made.names["x"].of == ("using x", 0)
 
 
 def test_using_puts_the_right_side_in_the_place_of_the_name(study):

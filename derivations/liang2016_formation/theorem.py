@@ -26,8 +26,8 @@ def ones():
 @study.claimed("theorem 1", using=[closed_loop_corrected, omega_from_rate])
 def synchronisation():
     """If beta lambda_max(L) <= K_o and no component of the disturbance, as it enters the acceleration of q,
-    exceeds K_v, all attitudes become equal and all angular velocities zero, on every connected graph, as long as no
-    scalar part reaches zero.
+    exceeds K_v, all attitudes become equal and all angular velocities zero, on every connected graph, as long
+    as no scalar part reaches zero.
     """
     return claim(
         given=[

@@ -64,7 +64,9 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     terms = terms_of(session, value, strict, known)
     if terms is not None:
         return {"terms": terms}
-    found = _by_fact(session, value, strict) or (None if strict else _by_scaled_completion(session, value, known))
+    found = _by_fact(session, value, strict) or (
+        None if strict else _by_scaled_completion(session, value, known)
+    )
     for times in _multipliers(session) if found is None else ():
         found = found or _scaled_entry(session, value, strict, known, times)
     return found
@@ -81,8 +83,8 @@ def _scaled_entry(
 
 
 def _multipliers(session: Session) -> list[list[Poly]]:
-    """Positive polynomials with which assumed equations rewrite more: their positive factors, and the positive
-    generators that lead them; and the squares of these. Each as its factors.
+    """Positive polynomials with which assumed equations rewrite more: their positive factors, and the
+    positive generators that lead them; and the squares of these. Each as its factors.
     """
     field, signs = session.domain.field, session.domain.signs
     zeros = [p for _, p in session.zeros] + [new.polynomial for new, _ in session.derived]
@@ -199,7 +201,9 @@ def _parts(session: Session, p: Poly) -> list[Poly]:
 
 
 def _by_parts(session: Session, parts: Sequence[Poly], known: Known) -> list[list[Any]] | None:
-    """Each part by itself; where no assumption ties their symbols and one is negative, so is the sum somewhere."""
+    """Each part by itself; where no assumption ties their symbols and one is negative, so is the sum
+    somewhere.
+    """
     found: list[list[Any]] = []
     for part in parts:
         terms = terms_of(session, session.domain.polynomial(part), False, known)
@@ -419,7 +423,9 @@ def _candidates(session: Session, p: Poly, known: Known, wide: bool) -> list[Can
         for product, given in products:
             found.append(Candidate(field.normal(product * value), (*given, form), ()))
     if wide:
-        found += [Candidate(field.normal(q), given, ()) for q, given in products if q.total_degree() <= degree + 2]
+        found += [
+            Candidate(field.normal(q), given, ()) for q, given in products if q.total_degree() <= degree + 2
+        ]
     for product, given in products:
         for square in [*known.squares, *_squares(session, p, wide)]:
             advised = any(square is known_square for known_square in known.squares)

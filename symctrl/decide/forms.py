@@ -1,4 +1,4 @@
-"""Quadratic forms of assumed definite matrices that occur in a polynomial: x'Px, with x read off P's entries."""
+"""Quadratic forms of assumed definite matrices that occur in a polynomial: x'Px, with x read off P's part."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ def forms_in(session: Session, p: Poly) -> Iterator[tuple[dict[str, Any], Poly]]
         n = assumption.size
         if n < 2 or not assumption.kind.startswith("positive_"):
             continue
-        rows = [[_symbol(session, session.at(assumption.of[r + n * c], {"i": "i"})) for c in range(n)] for r in range(n)]
+        rows = [
+            [_symbol(session, session.at(assumption.of[r + n * c], {"i": "i"})) for c in range(n)]
+            for r in range(n)
+        ]
         if any(entry is None for row in rows for entry in row):
             continue
         x = _vector(session, p, [[e for e in row if e is not None] for row in rows])
@@ -43,8 +46,10 @@ def _symbol(session: Session, value: Any) -> int | None:
 
 
 def _vector(session: Session, p: Poly, rows: list[list[int]]) -> list[Poly] | None:
-    """x with the diagonal entries' coefficients as its squares and the others' as its products, up to a factor."""
-    n, field = len(rows), session.domain.field
+    """x with the diagonal entries' coefficients as its squares and the others' as its products, up to a
+    factor.
+    """
+    n = len(rows)
     squares = [_square_root(session, _linear(session, p, rows[r][r])) for r in range(n)]
     if None in squares or all(s is not None and s.is_zero() for s in squares):
         return None
@@ -62,13 +67,17 @@ def _linear(session: Session, p: Poly, k: int) -> Poly:
     field = session.domain.field
     column = field.size - 1 - k
     kept = {
-        tuple(0 if v == column else int(x) for v, x in enumerate(e)): c for e, c in p.terms() if e[column] == 1
+        tuple(0 if v == column else int(x) for v, x in enumerate(e)): c
+        for e, c in p.terms()
+        if e[column] == 1
     }
     return field.context.from_dict(kept)
 
 
 def _square_root(session: Session, p: Poly) -> Poly | None:
-    """A polynomial whose square is p up to a positive number, and up to factors that are known to be positive."""
+    """A polynomial whose square is p up to a positive number, and up to factors that are known to be
+    positive.
+    """
     field = session.domain.field
     if p.is_zero():
         return p

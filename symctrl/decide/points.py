@@ -85,9 +85,7 @@ def admissible(problem: Problem, place: Place) -> str | None:
         nodes = list(place.neighbours) or [""]
         for node in nodes if _at_nodes(problem, assumption) else nodes[:1]:
             values = [at.output(of, {"i": node} if node else {}) for of in assumption.of]
-            if assumption.kind == "laplacian_bound":
-                values, assumption = _laplacian_below(place, values[0], assumption)
-            if not _holds(assumption, values):
+            if not _holds_at(place, assumption, values):
                 return assumption.text
     return None
 
@@ -195,11 +193,13 @@ def _holds(assumption: Assumption, values: list[Fraction]) -> bool:
     )
 
 
-def _laplacian_below(place: Place, bound: Fraction, of: Assumption) -> tuple[list[Fraction], Assumption]:
-    """That the eigenvalues of the graph's Laplacian L are at most b, as b I - L positive semidefinite."""
+def _holds_at(place: Place, assumption: Assumption, values: list[Fraction]) -> bool:
+    """A bound b of the eigenvalues of the graph's Laplacian L is b I - L positive semidefinite."""
+    if assumption.kind != "laplacian_bound":
+        return _holds(assumption, values)
     at = place.neighbours
-    entries = [bound - len(at[a]) if a == b else Fraction(b in at[a]) for a in at for b in at]
-    return entries, replace(of, kind="positive_semidefinite", size=len(at))
+    entries = [values[0] - len(at[a]) if a == b else Fraction(b in at[a]) for a in at for b in at]
+    return _holds(replace(assumption, kind="positive_semidefinite", size=len(at)), entries)
 
 
 def _between(problem: Problem) -> dict[str, tuple[Fraction | None, Fraction | None]]:

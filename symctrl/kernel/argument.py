@@ -69,7 +69,8 @@ class Judge(Protocol):
 class Argument:
     """The state of an argument: the system with its quantities, and the facts so far.
 
-    available: assumptions that may be used in obligations. initial: those of the beginning only.
+    available: assumptions that may be used in obligations. initial: those of the beginning only. stated: the
+    states whose motion the statement itself has.
     """
 
     statement: Statement
@@ -79,6 +80,7 @@ class Argument:
     available: list[Assumption] = field(default_factory=list)
     initial: list[tuple[str, Assumption]] = field(default_factory=list)
     relations: list[tuple[str, Assumption]] = field(default_factory=list)
+    stated: frozenset[str] = frozenset()
     _stamp: tuple[int, int] = (-1, -1)
     _read: Any = None
 
@@ -189,7 +191,8 @@ class Argument:
         return domain.free(name).bounded
 
     def is_total_of_square(self, total: str, quantity: str) -> bool:
-        """Is `total` the sum over nodes of the square of a quantity at a node, or over nodes and neighbours of
+        """Is `total` the sum over nodes of the square of a quantity at a node, or over nodes and neighbours
+        of
         that of one at both?"""
         walk, domain = self._reading()
         of = self._summed(total, "total")
@@ -215,13 +218,19 @@ class Argument:
         """The listing of one output that a listing sums, if a sum is all that it is."""
         code = self.statement.listings[listing].code
         meaning = self.statement.names.get(_starred(code[0].name)) if len(code) == 1 else None
-        if meaning is None or meaning.kind != kind or len(self.statement.listings[meaning.of[0]].outputs) != 1:
+        if (
+            meaning is None
+            or meaning.kind != kind
+            or len(self.statement.listings[meaning.of[0]].outputs) != 1
+        ):
             return None
         return meaning.of[0]
 
     def require_total(self, total: str, quantity: str) -> None:
         fits = self.is_total_of_square(total, quantity)
-        self.require("the total is that of the square", fits, f"{total} is not the sum of the squares of {quantity}")
+        self.require(
+            "the total is that of the square", fits, f"{total} is not the sum of the squares of {quantity}"
+        )
 
     def rate_is_bounded(self, quantity: str, order: int = 1) -> bool:
         return self.traits(rate_listing(quantity, order)).bounded

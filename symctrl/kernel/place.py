@@ -22,7 +22,7 @@ from symctrl.kernel.interval import Interval, Undecided
 from symctrl.kernel.sliced import slice_of, sliced
 from symctrl.kernel.spots import Spot, Spots
 from symctrl.kernel.values import Assumption, Ref, Sentence, Statement
-from symctrl.kernel.witness import Graph, _bindings, _holds, _laplacian_below, _read_graph, _values
+from symctrl.kernel.witness import Graph, _bindings, _holds_on, _read_graph, _values
 
 
 class NotContradicted(Invalid):
@@ -173,10 +173,7 @@ class Site:
                     )
 
     def _holds(self, assumption: Assumption, entries: Sequence[Interval]) -> bool:
-        if assumption.kind == "laplacian_bound":
-            bound, assumption = _laplacian_below(self.place.graph, entries[0], assumption)
-            return _holds(assumption, bound)
-        return _holds(assumption, entries)
+        return _holds_on(self.place.graph, assumption, entries)
 
     def require_supposed(self) -> None:
         """What is supposed holds, if all that it speaks of stays as it is here."""

@@ -11,9 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from symctrl.kernel.values import Listing, Meaning, Ref, Statement
+from symctrl.kernel.values import Listing, Meaning, Ref, Sentence, Statement
 
 MAX_FORMULA = 400
+SET_WORDS = ("stays", "enters", "settles", "eventually")
 _INFIX = {"ADD": "+", "SUB": "-", "MUL": "*", "DIV": "/", "POW": "^", "CONSTPOW": "^"}
 _PREFIX = {"NEG": "-{}", "SQ": "{}^2", "TWICE": "2*{}", "INV": "1/{}"}
 
@@ -57,6 +58,8 @@ class _Printer:
 
     def claim(self) -> str:
         claim = self.statement.claim
+        if claim.kind == "theorem":
+            return self.theorem()
         listing = self.statement.listings[claim.listing]
         outputs = [self.formula((claim.listing, k)) for k in range(len(listing.outputs))]
         size = f"claim ({claim.shape[0]}x{claim.shape[1]}): "
@@ -71,6 +74,24 @@ class _Printer:
             return f"{size}[{'; '.join(outputs[:half])}] = [{'; '.join(outputs[half:])}]"
         of = "; ".join(outputs) if claim.matrix is None else _matrix(claim.matrix, outputs)
         return f"{size}[{of}] {claim.kind.replace('_', ' ')}"
+
+    def theorem(self) -> str:
+        """What every solution of the closed loop does, and what is supposed of it."""
+        claim = self.statement.claim
+        law = f" under the law {line(claim.law)}" if claim.law is not None else ""
+        supposed = f", if {self.sentences(claim.suppose)}" if claim.suppose else ""
+        return f"theorem: every solution{law}{supposed} exists for all time, and {self.sentences(claim.then)}"
+
+    def sentences(self, sentences: Sequence[Sentence]) -> str:
+        return " and ".join(self.sentence(s) for s in sentences)
+
+    def sentence(self, s: Sentence) -> str:
+        of = "; ".join(self.formula((self.statement.claim.listing, k)) for k in s.of)
+        if s.at:
+            of = ", ".join(f"{name} = {value}" for name, value in s.at)
+        about = f"[{of}]" + (" = 0" if s.zero else " >= 0" if s.word in SET_WORDS else "") if of else ""
+        by = f" by {self.formula((self.statement.claim.listing, s.by))}" if s.by is not None else ""
+        return f"{s.word} {about}{by}".strip()
 
     def meaning(self, meaning: Meaning) -> str:
         if meaning.kind == "constant":

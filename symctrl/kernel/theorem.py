@@ -66,7 +66,7 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     table = fields(proof, ("kind", *TABLES, "quantities", "relations", "lines"), "proof")
     whole, quantities = _whole(statement, table)
     checker = Checker()
-    at = Argument(whole, quantities, checker)
+    at = Argument(whole, quantities, checker, stated=frozenset(statement.motion))
     suppose(at)
     checker.proofs = typed(table["relations"], dict, "relations")
     at.begin()
@@ -135,7 +135,8 @@ def concluded(at: Argument, sentence: Sentence) -> bool:
     if sentence.word == "exists":
         return ("exists", "") in at.facts
     if sentence.word == "stable":
-        return ("stable", point_key(dict(sentence.at))) in at.facts
+        moving = {key for key, _ in sentence.at} <= set(at.stated)
+        return moving and ("stable", point_key(dict(sentence.at))) in at.facts
     keys = [output_key(at, k) for k in sentence.of]
     by = "" if sentence.by is None else output_key(at, sentence.by)
     if sentence.word in ("stays", "enters", "settles", "eventually"):
@@ -172,9 +173,23 @@ def _line(at: Argument, checker: Checker, value: Any, where: str) -> None:
     checker.close(where)
 
 
+def _require_new(statement: Statement, more: Mapping[str, Mapping[str, Any]]) -> None:
+    """What an argument brings must not say more of the symbols of the statement, as how a signal moves."""
+    for key in more["motion"]:
+        if key not in more["scalars"]:
+            raise Invalid(f"the motion of {key[:60]} is not the argument's to say")
+    for key in more["names"]:
+        if key in statement.scalars or key in more["scalars"]:
+            raise Invalid(f"{key[:60]} is both a scalar and a name")
+    for key in more["scalars"]:
+        if key in statement.names:
+            raise Invalid(f"{key[:60]} is a name of the statement")
+
+
 def _whole(statement: Statement, table: Mapping[str, Any]) -> tuple[Statement, tuple[str, ...]]:
     """The statement with what the argument adds, which must be defined and without a circle."""
     more = read_tables(table, statement.listings)
+    _require_new(statement, more)
     merged: dict[str, dict[str, Any]] = {}
     for name in TABLES:
         own, new = dict(getattr(statement, name)), more[name]

@@ -4,17 +4,18 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Theorem (`each`). A sum over nodes of terms that are nonnegative at every node is nonnegative.
 
-Theorem (`spectral`). Let L be the Laplacian of an undirected graph with no eigenvalue above b, and P a quadratic
-form with constant coefficients. If P(x, m x) >= 0 for all x and all m with 0 <= m <= b, then the sum over nodes i of
-P(x_i, (L x)_i) is nonnegative for every graph.
+Theorem (`spectral`). Let L be the Laplacian of an undirected graph with no eigenvalue above b, and P a
+quadratic form with constant coefficients. If P(x, m x) >= 0 for all x and all m with 0 <= m <= b, then the
+sum over nodes i of P(x_i, (L x)_i) is nonnegative for every graph.
 
-Proof. L = U diag(m) U' with U orthogonal and 0 <= m_k <= b. The sum over nodes of a product of two components is
-that of their coordinates in the columns of U, in which L x has the coordinates m_k times those of x: the sum is the
-sum over k of P(y_k, m_k y_k). Source: spectral theorem; Godsil and Royle, Algebraic Graph Theory, on Laplacians.
+Proof. L = U diag(m) U' with U orthogonal and 0 <= m_k <= b. The sum over nodes of a product of two components
+is that of their coordinates in the columns of U, in which L x has the coordinates m_k times those of x: the
+sum is the sum over k of P(y_k, m_k y_k). Source: spectral theorem; Godsil and Royle, Algebraic Graph Theory,
+on Laplacians.
 
-In the terms at a node, the sum over neighbours of x is the degree times x less (L x), and the sum over nodes and
-neighbours j of c x_j y_j, for a constant c, is that over nodes of c times the degree times x y. The degree must
-cancel.
+In the terms at a node, the sum over neighbours of x is the degree times x less (L x), and the sum over nodes
+and neighbours j of c x_j y_j, for a constant c, is that over nodes of c times the degree times x y. The
+degree must cancel.
 """
 
 from __future__ import annotations
@@ -131,7 +132,9 @@ def _in_modes(test: SumIdentity, p: Poly) -> dict[tuple[Key, Key, int], Fraction
     return {(constants, nodes, mode): c for (constants, nodes, _, mode), c in kept.items()}
 
 
-def _expanded(test: SumIdentity, factors: list[tuple[int, int]]) -> list[tuple[tuple[Key, Key, int, int], int]]:
+def _expanded(
+    test: SumIdentity, factors: list[tuple[int, int]]
+) -> list[tuple[tuple[Key, Key, int, int], int]]:
     """A monomial with its sums over neighbours put in terms of the degree d and of L x = m x at the node."""
     constants = [(k, e) for k, e in factors if _kind(test, k) == "constant"]
     nodes = {k: e for k, e in factors if _kind(test, k) == "node"}
@@ -184,7 +187,9 @@ def _statement(
         ]
     )
     b = single(statement.listings[statement.given[bound].of[0][0]], statement.given[bound].of[0][1])
-    below = Listing((*b.code, Step("INPUT", name=MODE), Step("SUB", (b.outputs[0], len(b.code)))), (len(b.code) + 1,), "")
+    below = Listing(
+        (*b.code, Step("INPUT", name=MODE), Step("SUB", (b.outputs[0], len(b.code)))), (len(b.code) + 1,), ""
+    )
     listings = {
         **statement.listings,
         f"{MODE}s": listing,
@@ -220,5 +225,3 @@ def polynomial_listing(terms: list[tuple[Fraction, list[tuple[str, int]]]]) -> L
                 term = emit(Step("MUL", (term, emit(Step("INPUT", name=name)))))
         total = emit(Step("ADD", (total, term)))
     return Listing(tuple(code), (total,), "")
-
-

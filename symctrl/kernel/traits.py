@@ -166,7 +166,8 @@ class Reading(Domain[Traits]):
         )
 
     def _is_positive_number(self, exponent: Traits) -> bool:
-        return exponent.number is not None and exponent.number > 0 or self.known_positive(exponent.key)
+        literal = exponent.number is not None and exponent.number > 0
+        return literal or self.known_positive(exponent.key)
 
     def known_positive(self, key: str) -> bool:
         return self.known_apart(f"positive {key}")

@@ -72,9 +72,7 @@ def _refute(statement: Statement, place: Point, bits: int) -> None:
     for k, assumption in enumerate(statement.given):
         for binding in _bindings(statement, assumption, place.graph):
             entries = [walk.output(ref, binding) for ref in assumption.of]
-            if assumption.kind == "laplacian_bound":
-                entries, assumption = _laplacian_below(place.graph, entries[0], assumption)
-            if not _holds(assumption, entries):
+            if not _holds_on(place.graph, assumption, entries):
                 raise Invalid(f"the values do not satisfy assumption {k + 1}, {assumption.text[:80]!r}")
     outputs = walk.outputs(statement.claim.listing, place.binding)
     if not place.fails(outputs):
@@ -107,16 +105,17 @@ def _holds(assumption: Assumption, entries: Sequence[Interval]) -> bool:
     return {"zero": a.sign == 0, "nonzero": a.sign != 0, "positive": a.sign > 0}[assumption.kind]
 
 
-def _laplacian_below(graph: Graph, bound: Interval, of: Assumption) -> tuple[list[Interval], Assumption]:
-    """That the eigenvalues of the graph's Laplacian L are at most b, as b I - L positive semidefinite."""
+def _holds_on(graph: Graph, of: Assumption, values: Sequence[Interval]) -> bool:
+    """A bound b of the eigenvalues of the graph's Laplacian L is b I - L positive semidefinite."""
+    if of.kind != "laplacian_bound":
+        return _holds(of, values)
+    bound = values[0]
     if not bound.thin:
         raise Undecided("a bound of eigenvalues that is not rational")
     nodes = list(graph)
-    rows = [
-        [(bound.lo - len(graph[a])) if a == b else Fraction(b in graph[a]) for b in nodes] for a in nodes
-    ]
+    rows = [[(bound.lo - len(graph[a])) if a == b else Fraction(b in graph[a]) for b in nodes] for a in nodes]
     entries = [point(rows[r][c]) for c in range(len(nodes)) for r in range(len(nodes))]
-    return entries, Assumption("positive_semidefinite", of.of, len(nodes), of.text, of.about)
+    return _is_definite(entries, len(nodes), strict=False)
 
 
 def _is_definite(entries: Sequence[Interval], n: int, strict: bool) -> bool:

@@ -77,8 +77,8 @@ class Algebra:
 def algebra(
     chain: Chain, quantities: Sequence[str], work: Callable[[Algebra], Result], relations: bool = False
 ) -> Result | None:
-    """`work` on the exact values of quantities, by themselves or reduced by the equations that are assumed; None
-    where these have no exact meaning.
+    """`work` on the exact values of quantities, by themselves or reduced by the equations that are assumed;
+    None where these have no exact meaning.
     """
     from symctrl.rules.seeker import NO_MEANING
 

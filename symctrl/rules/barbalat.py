@@ -17,7 +17,8 @@ def barbalat(chain: Chain, what: What) -> bool:
     carries.existence(chain)
     e = what["e"]
     parts = [e] if e.shape == (1, 1) else list(e)
-    return all([_one(chain, chain.q(part), what) for part in parts])
+    met = [_one(chain, chain.q(part), what) for part in parts]
+    return all(met)
 
 
 def _one(chain: Chain, e: str, what: What) -> bool:
@@ -45,9 +46,7 @@ def _tables(chain: Chain, e: str, what: What) -> Iterator[dict[str, Any]]:
                 yield {"e": e, "W": W} | words | rate | ({"least": least} if least else {})
 
 
-def _over_nodes(
-    chain: Chain, e: str, W: str, least: Any, rate: Mapping[str, str]
-) -> Iterator[dict[str, Any]]:
+def _over_nodes(chain: Chain, e: str, W: str, least: Any, rate: dict[str, str]) -> Iterator[dict[str, Any]]:
     """W bounds the sum over all nodes of the square."""
     total = carries.total_of(chain, e)
     factors = [chain.q(least)] if least is not None else [None, *carries.products(chain)]

@@ -43,7 +43,8 @@ def carries(chain: Chain, what: What) -> bool:
         if k != "fact" and v is not None and not (isinstance(v, tuple) and not v)
     }
     if hints:
-        return all([_hinted(chain, fact.word, name, hints) for name in names])
+        met = [_hinted(chain, fact.word, name, hints) for name in names]
+        return all(met)
     for name in names:
         ensure(chain, fact.word, name)
     if fact.word == "tends":
@@ -79,7 +80,8 @@ def _hinted(chain: Chain, word: str, name: str, hints: Mapping[str, Any]) -> boo
     if word == "bounded" and "rate" in hints:
         return chain.run("carries", {"word": word, "how": "rate", "e": name, "by": chain.q(hints["rate"])})
     if word == "exponentially":
-        return all([_exponentially(chain, name, V, more) for V in by])
+        decays = [_exponentially(chain, name, V, more) for V in by]
+        return all(decays)
     how, of = {
         "bounded": ("square", by),
         "tends": ("square", by[0] if by else ""),
@@ -236,10 +238,10 @@ def _completed(found: Algebra) -> tuple[Tape, Tape] | None:
 def tends(chain: Chain, name: str) -> bool:
     if ("exists", "") not in chain.at.facts:
         return False
-    for rule, table in chain.again:
-        if "input" in table and not chain.at.has("tends", table["V"]) and table["input"] != name:
-            ensure(chain, "tends", table["input"])
-            chain.attempt(rule, table)
+    for rule, line in chain.again:
+        if "input" in line and not chain.at.has("tends", line["V"]) and line["input"] != name:
+            ensure(chain, "tends", line["input"])
+            chain.attempt(rule, line)
     if _sum_of_small(chain, name):
         return True
     combinations(chain, [name])
@@ -300,7 +302,8 @@ def _assumed_apart(chain: Chain) -> list[str]:
 
 
 def exponentially(chain: Chain, name: str) -> bool:
-    return any(_exponentially(chain, name, V, {}) for V in chain.having("exponentially") if V != name)
+    known = [V for V in chain.having("exponentially") if V not in (name,)]
+    return any(_exponentially(chain, name, V, {}) for V in known)
 
 
 def _exponentially(chain: Chain, name: str, V: str, more: Mapping[str, str]) -> bool:
@@ -415,13 +418,13 @@ def bounded_reads(chain: Chain, listing: str) -> None:
 def bounded_states(chain: Chain) -> None:
     """Carry boundedness over to every state for which that succeeds."""
     names = {state: chain.q(bare(state)) for state in chain.at.statement.motion}
-    for state in names:
+    for state, name in names.items():
         if not chain.at.state_is_bounded(state):
-            bounded_by_constants(chain, names[state])
+            bounded_by_constants(chain, name)
     forms(chain, [names[state] for state in names if not chain.at.state_is_bounded(state)])
-    for state in names:
+    for state, name in names.items():
         if not chain.at.state_is_bounded(state):
-            bounded(chain, names[state])
+            bounded(chain, name)
     for rate in chain.at.field().values():
         for name in sorted(
             n for n in rate.reads if chain.at.is_signal(n) and not chain.at.free_is_bounded(n)
@@ -433,7 +436,7 @@ def bounded_states(chain: Chain) -> None:
 
 
 def forms(chain: Chain, names: Sequence[str]) -> None:
-    """e'P e <= k + V for the quadratic part of a bounded V in the symbols of each column, and in all of them."""
+    """e'P e <= k + V for the quadratic part of a bounded V in each column of symbols, and in all."""
     columns: dict[str, list[str]] = {}
     for name in names:
         (read,) = chain.at.traits(name).reads or ("",)
@@ -461,15 +464,16 @@ def _form(chain: Chain, V: str, column: Sequence[str]) -> bool:
 
 
 def _hessian(found: Algebra) -> list[Tape] | None:
-    """Half the second derivatives of the first value by the others, column by column; None where not constant."""
+    """Half the second derivatives of the first value by the others, column by column; None where not
+    constant.
+    """
     V, *column = found.values
     at = [_symbol(found, value) for value in column]
-    if None in at:
-        return None
     tapes = []
     for a in at:
         for b in at:
-            assert a is not None and b is not None
+            if a is None or b is None:
+                return None
             powers = {a: 2} if a == b else {a: 1, b: 1}
             others = {g: 0 for g in at if g is not None and g not in powers}
             entry = found.coefficient(V, powers | others)
@@ -533,9 +537,9 @@ def factors(chain: Chain) -> list[str]:
     for assumption in chain.at.available:
         listing = chain.at.statement.listings[assumption.of[0][0]]
         step = listing.code[listing.outputs[assumption.of[0][1]]]
-        if assumption.kind == "positive" and step.op == "INPUT":
-            if chain.at.statement.scalars.get(step.name) == "parameter":
-                found.append(chain.q(Tape((Instruction("INPUT", name=step.name),), (0,))))
+        is_parameter = step.op == "INPUT" and chain.at.statement.scalars.get(step.name) == "parameter"
+        if assumption.kind == "positive" and is_parameter:
+            found.append(chain.q(Tape((Instruction("INPUT", name=step.name),), (0,))))
     return found
 
 
@@ -564,7 +568,7 @@ def offsets(chain: Chain, name: str) -> Iterator[str]:
 
 
 def _squared_bounds(found: Algebra) -> list[Tape]:
-    """(bound + e)(e - bound) + e^2 for pairs of bounds p - e >= 0 and p + e >= 0: p^2 where it is constant."""
+    """p^2, where it is constant, as (p - e)(p + e) + e^2 for pairs of bounds."""
     domain = found.session.domain
     e, *bounds = found.values
     tapes = []
@@ -579,4 +583,5 @@ def _squared_bounds(found: Algebra) -> list[Tape]:
 
 
 def _shares(chain: Chain, V: str, name: str) -> bool:
-    return V != name and bool(chain.at.traits(V).reads & chain.at.traits(name).reads)
+    shared = chain.at.traits(V).reads & chain.at.traits(name).reads
+    return V not in (name,) and bool(shared)

@@ -1,4 +1,4 @@
-"""Deciding an argument line by line: each line becomes lines of the kernel, with the proofs that were found."""
+"""Deciding an argument line by line: each becomes lines of the kernel, with the proofs that were found."""
 
 from __future__ import annotations
 
@@ -49,8 +49,8 @@ class Done:
 class Chain:
     """The state of an argument on its way: the loop, the facts, and the kernel's lines so far.
 
-    again: lines that may give more once more is known of their input, or that solutions exist. broken: a line has
-    failed; those below are tried without looking for refutations.
+    again: lines that may give more once more is known of their input, or that solutions exist. broken: a line
+    has failed; those below are tried without looking for refutations.
     """
 
     loop: Loop
@@ -64,7 +64,8 @@ class Chain:
     broken: bool = False
 
     def __post_init__(self) -> None:
-        self.at = Argument(self.loop.statement, (), self.seeker)
+        stated = frozenset(self.loop.problem.motion)
+        self.at = Argument(self.loop.statement, (), self.seeker, stated=stated)
         suppose(self.at)
         self.at.begin()
         self.relations = self._proofs()

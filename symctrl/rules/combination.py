@@ -1,14 +1,15 @@
 """What tends to zero because a multiple of it is a combination of what does.
 
-A term with a factor that tends to zero is a combination by itself. For symbols that do not occur so, the rates and
-other values that tend to zero are read as linear equations for them with constant coefficients A: then
-det(A) e = adj(A) (z - r), where every term of r has a factor that tends to zero.
+A term with a factor that tends to zero is a combination by itself. For symbols that do not occur so, the
+rates and other values that tend to zero are read as linear equations for them with constant coefficients A:
+then det(A) e = adj(A) (z - r), where every term of r has a factor that tends to zero.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import reduce
 from itertools import combinations as subsets
 from typing import Any
@@ -167,7 +168,7 @@ def _row(found: Algebra, name: str, value: Exact, unknown: list[int], small: dic
     if split is None:
         return None
     parts, rest = split
-    coefficients = []
+    coefficients: list[Any] = []
     for g in unknown:
         c = found.coefficient(rest, {g: 1} | {h: 0 for h in unknown if h != g})
         coefficients.append(c.get((), field.polynomial(0)))
@@ -182,12 +183,14 @@ def _row(found: Algebra, name: str, value: Exact, unknown: list[int], small: dic
 
 def _solved(found: Algebra, names: list[str], rows: Sequence[_Row]) -> dict[str, Found]:
     domain, field = found.session.domain, found.session.domain.field
-    matrix = [[{(): c} if not c.is_zero() else {} for c in row.coefficients] for row in rows]
-    det = determinant_of(domain, matrix).get((), field.polynomial(0))
+    matrix: list[list[Exact]] = [
+        [{(): c} if not c.is_zero() else {} for c in row.coefficients] for row in rows
+    ]
+    det: Any = determinant_of(domain, matrix).get((), field.polynomial(0))
     if det.is_zero():
         return {}
     n = len(rows)
-    adjugate = [[_cofactor(found, matrix, c, r) for c in range(n)] for r in range(n)]
+    adjugate: list[list[Any]] = [[_cofactor(found, matrix, c, r) for c in range(n)] for r in range(n)]
     common = reduce(lambda a, b: a.gcd(b), (p for row in adjugate for p in row if not p.is_zero()), det)
     det, adjugate = det / common, [[p / common for p in row] for row in adjugate]
     ways = {}
@@ -210,8 +213,8 @@ def _solved(found: Algebra, names: list[str], rows: Sequence[_Row]) -> dict[str,
 def _cofactor(found: Algebra, matrix: list[list[Exact]], r: int, c: int) -> Poly:
     domain = found.session.domain
     rows = [[x for k, x in enumerate(row) if k != c] for n, row in enumerate(matrix) if n != r]
-    minor = determinant_of(domain, rows) if rows else domain.constant(1)
-    value = minor.get((), domain.field.polynomial(0))
+    minor = determinant_of(domain, rows) if rows else domain.constant(Fraction(1))
+    value: Any = minor.get((), domain.field.polynomial(0))
     return -value if (r + c) % 2 else value
 
 

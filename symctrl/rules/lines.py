@@ -1,4 +1,4 @@
-"""The lines of an argument whose constants the author gives: falls, decays, outside, keeps, exists, lyapunov."""
+"""Lines whose constants the author gives: falls, decays, outside, keeps, exists, lyapunov."""
 
 from __future__ import annotations
 
@@ -57,7 +57,8 @@ def outside(chain: Chain, what: What) -> bool:
 
 def keeps(chain: Chain, what: What) -> bool:
     table = {} if what["a"] is None else {"a": chain.q(what["a"])}
-    return all([chain.run("keeps", {"g": g} | table) for g in chain.qs(what["g"])])
+    met = [chain.run("keeps", {"g": g} | table) for g in chain.qs(what["g"])]
+    return all(met)
 
 
 def exists(chain: Chain, what: What) -> bool:

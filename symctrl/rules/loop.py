@@ -1,4 +1,4 @@
-"""The closed loop of a theorem as pure data: motion, laws, assumptions, conclusions, and quantities beside."""
+"""The closed loop of a theorem as pure data: motion, laws, assumptions, conclusions, quantities."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ Sentence = dict[str, Any]
 class Loop:
     """The problem of a theorem, and more quantities as they are asked for.
 
-    problem: the theorem alone, its statement. statement: the kernel's form of it with all quantities and rates.
-    using: proved statements; the right side of an equation takes the place of what is on its left.
+    problem: the theorem alone, its statement. statement: the kernel's form of it with all quantities and
+    rates. using: proved statements; the right side of an equation takes the place of what is on its left.
     """
 
     def __init__(
@@ -111,8 +111,8 @@ class Loop:
         whole = self._tables(self.problem)
         listings = {name: self._listing(tape) for name, tape in whole.listings.items()}
         rates = rates_of(quantity, listings[quantity], self.law)
-        for table, new in zip(self.minted, rates, strict=True):
-            table.update(new)
+        self.minted[0].update(rates[0])
+        self.minted[1].update(rates[1])
         self.statement = replace(
             self.statement,
             listings={**listings, **self.minted[0]},
@@ -165,7 +165,9 @@ class Loop:
                     self.collector._law(law.name)
 
     def _tables(self, problem: Problem) -> Problem:
-        """The problem with what has been collected, one law for the closed loop, and what is used in its place."""
+        """The problem with what has been collected, one law for the closed loop, and what is used in its
+        place.
+        """
         c = self.collector
         own = [law.name for law in self.laws]
         joint = {u: of for name in own for u, of in c.laws.get(name, {}).items()}
@@ -211,6 +213,7 @@ class Loop:
         made: Sentence = {"word": fact.word, "of": []}
         if fact.at:
             made["at"] = self._point(fact)
+            exprs += [self.study.symbols[name].expr for name in fact.at]  # so that their motion is stated
         count = sum(e.shape[0] * e.shape[1] for e in exprs)
         if fact.of is not None:
             exprs.append(fact.of)
@@ -227,7 +230,8 @@ class Loop:
 
 @dataclass(frozen=True)
 class Changed:
-    """A twin of a theorem: without one assumption, or with other laws. along: with the study's assumptions about the
+    """A twin of a theorem: without one assumption, or with other laws. along: with the study's assumptions
+    about the
     trajectory."""
 
     dropped: int | None = None
@@ -236,7 +240,9 @@ class Changed:
 
 
 def reached(problem: Problem, roots: Sequence[str], law: str | None) -> Problem:
-    """The problem with only what listings read, and the motion of that under the law, and the assumptions read."""
+    """The problem with only what listings read, and the motion of that under the law, and the assumptions
+    read.
+    """
     reach = Reach(problem)
     for root in roots:
         reach.listing(root, 0, law)
@@ -265,7 +271,7 @@ def reached(problem: Problem, roots: Sequence[str], law: str | None) -> Problem:
 
 
 def scalars_at(study: Study, at: Mapping[str, Sequence[Any]], what: str) -> dict[str, Any]:
-    """Numbers by scalar name, from numbers by symbol. Raises StudyError for unknown symbols and wrong sizes."""
+    """Numbers by scalar name, from numbers by symbol. Raises StudyError for unknown ones and wrong sizes."""
     from difflib import get_close_matches
 
     found: dict[str, Any] = {}
@@ -312,7 +318,8 @@ def _laws_of(study: Study, theorem: Theorem) -> list[Law]:
         for u in _targets(law):
             if targets.setdefault(u, law.name) != law.name:
                 raise StudyError(
-                    f"two laws give {u}, {targets[u]} and {law.name}: say which closes the loop, claim(.., laws=[..])"
+                    f"two laws give {u}, {targets[u]} and {law.name}: say which closes the loop, "
+                    "claim(.., laws=[..])"
                 )
     return laws
 

@@ -30,7 +30,7 @@ NO_MEANING = (Unsupported, NowhereDefined, NotDifferentiable, NoRate, NoPoint)
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of one obligation. problem: of a pointwise one. proof: with the numbers of assumptions used."""
+    """What came of one obligation. problem: of a pointwise one. given: the numbers of assumptions used."""
 
     role: str
     met: bool

@@ -43,7 +43,8 @@ def each(statement: kernel.Statement, convert: Convert) -> dict[str, Any] | None
 def spectral(statement: kernel.Statement, problem: Problem, convert: Convert) -> dict[str, Any] | None:
     """The proof mode by mode, where the graph's eigenvalues are bounded by assumption.
 
-    problem: the claim under the statement's assumptions, which must have no equation about the states among them.
+    problem: the claim under the statement's assumptions, which must have no equation about the states among
+    them.
     """
     at = next((k for k, a in enumerate(statement.given) if a.kind == "laplacian_bound"), None)
     if at is None:

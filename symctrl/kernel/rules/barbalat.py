@@ -3,8 +3,8 @@
 Soundness-critical. Last reviewed 2026-11-24.
 
 Theorem. Let solutions exist for all time, e be locally Lipschitz, and W have a finite integral with
-W >= a |e|^p for constants a > 0 and p >= 1 (or a times the sum over all nodes of a fleet of e^2). If the rate of e is bounded, or has a finite integral itself
-(|e'| <= S with S summable), then e tends to zero.
+W >= a |e|^p for constants a > 0 and p >= 1 (or a times the sum over all nodes of a fleet of e^2). If the rate
+of e is bounded, or has a finite integral itself (|e'| <= S with S summable), then e tends to zero.
 
 Proof. |e|^p has a finite integral. With a bounded rate e is uniformly continuous; were |e| >= 2 c at times
 without bound, |e|^p >= c^p on intervals of a fixed length around them, and the integral would be infinite.

@@ -6,11 +6,11 @@ Theorems, for every solution, with constants a > 0, d != 0 and k:
 bounded. e is bounded where it is composed of what is bounded (`traits`); where a e^2 <= k + V_1 + .. with
 bounded V; where e'P e <= k + V_1 + .. with a constant positive definite P (every component is); where its
 rate has a finite integral. tends. e tends to zero where d e = c_1 z_1 + .. with z that tend to zero and
-bounded c; where a e^2 <= V and V tends to zero. For a fleet, a sum over all nodes (and neighbours) of squares takes the place of the square, and is not less than
-it; and the sum over all nodes of what tends to zero at each node tends to zero.
-summable. e is summable where a |e| <= W_1 + .. with summable
-W. exponentially. |e| decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2
->= k > 0. sets. Where V <= r or V = 0 is reached, kept, .., so is every set that contains it.
+bounded c; where a e^2 <= V and V tends to zero. For a fleet, a sum over all nodes (and neighbours) of squares
+takes the place of the square, and is not less than it; and the sum over all nodes of what tends to zero at
+each node tends to zero. summable. e is summable where a |e| <= W_1 + .. with summable W. exponentially. |e|
+decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2 >= k > 0. sets. Where
+V <= r or V = 0 is reached, kept, .., so is every set that contains it.
 
 Proofs. Each is immediate.
 """
@@ -124,7 +124,9 @@ def _sum_of_small(at: Argument, of: Roles) -> None:
     """The sum over nodes of what tends to zero at each."""
     total, e = of.one("e"), of.one("by")
     at.need("the term tends to zero", "tends", e)
-    at.require("e is the sum over nodes", at.is_total_of(total, e), f"{total} is not the sum over nodes of {e}")
+    at.require(
+        "e is the sum over nodes", at.is_total_of(total, e), f"{total} is not the sum over nodes of {e}"
+    )
     at.learn("tends", total)
 
 

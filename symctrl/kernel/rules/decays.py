@@ -26,7 +26,7 @@ from symctrl.kernel.rules.roles import Roles
 
 
 def decays(at: Argument, of: Roles) -> None:
-    """Roles: V, a, b with gamma and rho, c, input, time (a bound of T), radius (r) with set (r - V), claim."""
+    """Roles: V, a, b with gamma and rho, c, input, time (a bound of T), radius (r) with set (r - V)."""
     V, a, b, c, w = of.one("V"), of.maybe("a"), of.maybe("b"), of.maybe("c"), of.maybe("input")
     at.require(
         "a rate is given", a is not None or b is not None, "neither a linear nor a power rate is given"

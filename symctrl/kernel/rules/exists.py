@@ -37,11 +37,9 @@ def exists(at: Argument, of: Roles) -> None:
         if _is_known(at, kind, key):
             continue
         quantity = shown.pop(key, None)
-        at.require(
-            f"an edge of the field is named: {kind}",
-            quantity is not None,
-            f"what must be {kind} for the field to be defined is not shown to stay so, nor assumed ({', '.join(sorted(traits.reads))})",
-        )
+        reads = ", ".join(sorted(traits.reads))
+        missing = f"what must be {kind} for the field to be defined is not shown to stay so ({reads})"
+        at.require("the field stays defined", quantity is not None, missing)
         if quantity is not None:
             proved, formula = PROVED_AS[kind]
             at.prove(f"{quantity} is {kind}", proved, formula, Beside(closed=True), q=quantity)

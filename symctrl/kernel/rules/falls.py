@@ -4,7 +4,7 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Theorem. Let V be locally Lipschitz with the rate V' along solutions, W_k >= 0, and w_j have finite integrals
 of |w_j|. If V' <= w_1 + .. - W_1 - .. for all states of the domain, all signals and all values of the
-switches, and V >= c for a constant c (or V is bounded below), then V is bounded and every W_k has a finite
+switches, and V >= c for a constant c, then V is bounded and every W_k has a finite
 integral. Without w, V never increases.
 
 Proof. V(x(t)) is absolutely continuous, so V(t) <= V(0) + int |w| - int W; with V >= c the integral of W is
@@ -21,9 +21,8 @@ from symctrl.kernel.rules.roles import Roles
 
 
 def falls(at: Argument, of: Roles) -> None:
-    """Roles: V, by (the W), plus (the w), above (the constant c; 0 where it is left out; V bounded: `below`)."""
-    V, parts, inputs = of.one("V"), of.many("by"), of.many("plus")
-    above, known = of.maybe("above"), "below" in of.table and of.word("below", ("known",))
+    """Roles: V, by (the W), plus (the w), above (the constant c; 0 where it is left out)."""
+    V, parts, inputs, above = of.one("V"), of.many("by"), of.many("plus"), of.maybe("above")
     at.require_differentiable("V is differentiable", V)
     for k, W in enumerate(parts, start=1):
         at.prove(f"part {k} is not negative", "nonnegative", "W", W=W)
@@ -36,9 +35,7 @@ def falls(at: Argument, of: Roles) -> None:
         + "".join(f" W{k} -" for k in range(len(parts)))
     )
     at.prove("V falls", "nonnegative", formula, V=V, **named)
-    if known:
-        at.need("V is bounded below", "bounded", V)
-    elif above is None:
+    if above is None:
         at.prove("V is bounded below", "nonnegative", "V", V=V)
     else:
         at.require_constant("the lower bound is constant", above)

@@ -49,7 +49,13 @@ def lasalle(at: Argument, of: Roles) -> None:
         at.prove(f"V' = 0 gives zero {k}", "equal", ["e", "0"], Beside((still,), closed=True), e=e)
     resting = _resting(at, of, zeros, order)
     for k, g in enumerate(limits, start=1):
-        at.prove(f"limit {k} vanishes on the invariant set", "equal", ["g", "0"], Beside(tuple(resting), closed=True), g=g)
+        at.prove(
+            f"limit {k} vanishes on the invariant set",
+            "equal",
+            ["g", "0"],
+            Beside(tuple(resting), closed=True),
+            g=g,
+        )
     for g in limits:
         at.learn("tends", g)
 
