@@ -32,7 +32,7 @@ __all__ = ["Quaternion", "Study", "StudyError", "Symbol"]
 @dataclass(frozen=True)
 class Symbol:
     """A declared symbol. kind: state, parameter, input or signal. unit: None where the equations shall say
-    it.
+    it. system: of a state that is not one of the study's model, the name of the system that it belongs to.
     """
 
     expr: Expr
@@ -40,6 +40,7 @@ class Symbol:
     unit: str | None
     values: Mapping[str, Fraction] = field(default_factory=dict)
     gain: bool = False
+    system: str | None = None
 
 
 @dataclass(frozen=True)
@@ -76,19 +77,37 @@ class Study:
     # Symbols
 
     def declare(
-        self, expr: Expr, kind: str, unit: str | None, values: Sequence[Fraction] = (), gain: bool = False
+        self,
+        expr: Expr,
+        kind: str,
+        unit: str | None,
+        values: Sequence[Fraction] = (),
+        gain: bool = False,
+        system: str | None = None,
     ) -> Expr:
         """Enter a symbol. Raises StudyError for a name that is taken."""
         name, _, symmetric = expr.args
         if name in self.symbols:
             raise StudyError(f"the symbol {name} is declared twice; a symbol has one meaning in a study")
         names = component_names(name, expr.shape, symmetric)
-        self.symbols[name] = Symbol(expr, kind, unit, dict(zip(names, values, strict=bool(values))), gain)
+        known = dict(zip(names, values, strict=bool(values)))
+        self.symbols[name] = Symbol(expr, kind, unit, known, gain, system)
         return expr
 
-    def state(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> Expr:
-        """A state (size x 1); its time derivative is given by `motion`."""
-        return self.declare(symbol(name, (size, 1), tex), "state", unit)
+    def state(
+        self,
+        name: str,
+        size: int = 1,
+        unit: str | None = None,
+        tex: str | None = None,
+        system: str | None = None,
+    ) -> Expr:
+        """A state (size x 1); its time derivative is given by `motion`.
+
+        system: of an abstract quantity, as in a lemma, the name of the system that it belongs to. A theorem is
+        about all states of the systems of which it reads one, or of the study's own model.
+        """
+        return self.declare(symbol(name, (size, 1), tex), "state", unit, system=system)
 
     def input(self, name: str, size: int = 1, unit: str | None = None, tex: str | None = None) -> Expr:
         """A control input (size x 1), free until a law gives it."""

@@ -226,7 +226,7 @@ class Run:
             e=_column(e),
             of=_maybe(of),
             least=_maybe(least),
-            power=power if isinstance(power, int) or power is None else lift(power),
+            power=_power(power),
             rate=_maybe(rate),
         )
 
@@ -284,6 +284,13 @@ class Run:
 
     def _line(self, rule: str, **what: Any) -> None:
         self.lines.append(Line(rule, what))
+
+
+def _power(power: Any) -> Any:
+    """1 or 2 as they are, for which there are formulas of their own; else the expression."""
+    if power is None or (isinstance(power, int) and power in (1, 2)):
+        return power
+    return lift(power)
 
 
 def _shown(value: Any) -> str:

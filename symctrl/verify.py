@@ -16,7 +16,8 @@ from symctrl.deciding import Decided, decide, is_named, with_corrections
 from symctrl.dimensions import units_of
 from symctrl.inputs import inputs_digest
 from symctrl.latex import latex
-from symctrl.problem import PROVED
+from symctrl.expr import scalars
+from symctrl.problem import PROVED, star
 from symctrl.rows import Given, Report, Row
 from symctrl.statements import Conforms, Equal
 from symctrl.theorem import Theorem
@@ -123,11 +124,11 @@ def _made(study: Study, entry: Entry, id_: str, decided: Decided) -> Row:
         kind=_kind(decided.claim),
         verdict=verdict.outcome.value,
         stands=False,
-        conditional=isinstance(decided.claim, Theorem) and _assumes_the_trajectory(decided.parts),
+        conditional=isinstance(decided.claim, Theorem) and _assumes_the_trajectory(study, decided),
         reason=verdict.reason,
         method=verdict.method,
         reading=id_.partition("[")[2].rstrip("]") or entry.reading,
-        given=_given(decided.parts),
+        given=_given(decided.parts) + _supposed(study, decided),
         holds_for=_holds_for(study, decided),
         rests_on=(*_rests_on(study, entry, decided.parts), *decided.steps),
         unmet=decided.unmet,
@@ -163,8 +164,22 @@ def _given(found: tuple[Part, ...]) -> tuple[Given, ...]:
     )
 
 
-def _assumes_the_trajectory(found: tuple[Part, ...]) -> bool:
-    return any(a.about == "trajectory" for part in found for a in part.problem.given)
+def _assumes_the_trajectory(study: Study, decided: Decided) -> bool:
+    given = _given(decided.parts) + _supposed(study, decided)
+    return any(one.about == "trajectory" for one in given)
+
+
+def _supposed(study: Study, decided: Decided) -> tuple[Given, ...]:
+    """The facts that a theorem supposes: of signals, or, where they read a state, of the trajectory."""
+    if not isinstance(decided.claim, Theorem):
+        return ()
+    found = []
+    for fact in decided.claim.suppose:
+        names = scalars(fact.of) if fact.of is not None else []
+        symbols = [study.symbols.get(star(name).partition("[")[0]) for name in names]
+        state = any(symbol is None or symbol.kind == "state" for symbol in symbols)
+        found.append(Given(fact.text(), "trajectory" if state else "signal"))
+    return tuple(found)
 
 
 def _holds_for(study: Study, decided: Decided) -> str:

@@ -2,15 +2,122 @@
 
 from __future__ import annotations
 
+from derivations.liang2016_formation.conclusion import V_2
 from derivations.liang2016_formation.control import V, e, s, tau
 from derivations.liang2016_formation.model import Q, dq
-from derivations.liang2016_formation.rate import closed_loop_corrected, d
-from derivations.liang2016_formation.symbols import K_o, K_q, K_v, beta, fleet, omega, q, study
-from symctrl import along_trajectory, claim, equal, tends
-from symctrl.vectors import absolute, stack
+from derivations.liang2016_formation.rate import closed_loop_corrected, d, quadratic_form
+from derivations.liang2016_formation.symbols import (
+    K_o,
+    K_q,
+    K_v,
+    alpha,
+    beta,
+    fleet,
+    omega,
+    q,
+    study,
+    u_bar,
+)
+from symctrl import along, along_trajectory, apart, at, bounded, claim, equal, summable, tends
+from symctrl.vectors import absolute, power, stack
 
 i, j = fleet.node, fleet.neighbour
+INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
 Lambda = study.gain("Lambda", unit="1", tex=r"\Lambda")  # an upper bound of the Laplacian's eigenvalues
+
+
+# A Lyapunov function that falls at the rate w_t, and a quantity with the rate y_t, along one solution.
+V_t, x_t = study.state("V_t", system="lemma 1"), study.state("x_t", system="lemma 1")
+w_t, y_t = study.disturbance("w_t"), study.disturbance("y_t")
+c_t = study.gain("c_t")
+study.motion(V_t, -w_t)
+study.motion(x_t, y_t)
+
+# A function of time, its rate, and an exponent.
+f_t, g_t = study.state("f_t", system="lemma 2"), study.disturbance("g_t")
+p_t = study.parameter("p_t", unit="1")
+study.motion(f_t, g_t)
+
+
+@study.printed(
+    "lemma 1",
+    reading="along one solution, with x = 0 the set G; f is continuous, so that x has a bounded rate",
+)
+def lemma_1():
+    """A bounded quantity x with V' <= -c x^2 for a V that is not negative tends to zero."""
+    return claim(
+        given=[w_t >= c_t * x_t**2, along_trajectory(V_t >= 0), bounded(x_t, y_t)],
+        then=[tends(x_t)],
+    )
+
+
+@study.argument(lemma_1)
+def along_one_solution(run):
+    run.falls(V_t, by=c_t * x_t**2)
+    run.barbalat(x_t)
+
+
+@study.printed(
+    INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
+Lambda = study.gain("Lambda", unit="1", tex=r"\Lambda")  # an upper bound of the Laplacian's eigenvalues
+
+
+# A Lyapunov function that falls at the rate w_t, and a quantity with the rate y_t, along one solution.
+V_t, x_t = study.state("V_t", system="lemma 1"), study.state("x_t", system="lemma 1")
+w_t, y_t = study.disturbance("w_t"), study.disturbance("y_t")
+c_t = study.gain("c_t")
+study.motion(V_t, -w_t)
+study.motion(x_t, y_t)
+
+# A function of time, its rate, and an exponent.
+f_t, g_t = study.state("f_t", system="lemma 2"), study.disturbance("g_t")
+p_t = study.parameter("p_t", unit="1")
+study.motion(f_t, g_t)
+
+
+@study.printed(
+    "lemma 1",
+    reading="along one solution, with x = 0 the set G; f is continuous, so that x has a bounded rate",
+)
+def lemma_1():
+    """A bounded quantity x with V' <= -c x^2 for a V that is not negative tends to zero."""
+    return claim(
+        given=[w_t >= c_t * x_t**2, along_trajectory(V_t >= 0), bounded(x_t, y_t)],
+        then=[tends(x_t)],
+    )
+
+
+@study.argument(lemma_1)
+def along_one_solution(run):
+    run.falls(V_t, by=c_t * x_t**2)
+    run.barbalat(x_t)
+
+
+@study.printed(
+    "lemma 2",
+    finding={
+        "refuted": "A constant has all that the lemma asks: the function, and not its rate, must lie in L_p."
+    },
+)
+def lemma_2():
+    """A bounded quantity whose rate is bounded and lies in L_p, with p >= 1, tends to zero."""
+    return claim(given=[p_t >= 1, bounded(x_t, y_t), summable(power(absolute(y_t), p_t))], then=[tends(x_t)])
+
+
+@study.counterexample(lemma_2)
+def a_constant():
+    return along(x_t=1, y_t=0, p_t=2)
+
+
+@study.corrected(lemma_2, why="The function itself lies in L_p; of its rate it is enough that it is bounded.")
+def lemma_2_of_x():
+    """A quantity that lies in L_p, with p >= 1, and has a bounded rate tends to zero."""
+    return claim(given=[p_t >= 1, bounded(x_t, y_t), summable(power(absolute(x_t), p_t))], then=[tends(x_t)])
+
+
+@study.argument(lemma_2_of_x)
+def by_uniform_continuity(run):
+    run.barbalat(x_t, of=power(absolute(x_t), p_t), power=p_t)
 
 
 @study.claimed("after (1)")
@@ -23,7 +130,64 @@ def ones():
     return stack(1, 1, 1)
 
 
-@study.claimed("theorem 1", using=[closed_loop_corrected, omega_from_rate])
+@study.printed(
+    "theorem 1",
+    finding={
+        "refuted": "Two craft at rest whose quaternions have opposite signs stay so: their attitudes are the "
+        "same, their quaternions are not."
+    },
+)
+def theorem_1():
+    """With the law (4) and a bounded disturbance all quaternions and all angular velocities become equal."""
+    return claim(
+        given=[equal(K_v, u_bar * alpha)],
+        then=[
+            tends(omega[i] - omega[j]),
+            tends(q[i].vector - q[j].vector),
+            tends(q[i].scalar - q[j].scalar),
+        ],
+    )
+
+
+@study.counterexample(theorem_1, against=tends(q[i].scalar - q[j].scalar))
+def opposite_quaternions():
+    at_rest = {"omega": [0, 0, 0], "u_d": [0, 0, 0], "J": INERTIA}
+    first, second = {"q": [0, 0, "3/5"], "q0": "4/5"}, {"q": [0, 0, "3/5"], "q0": "-4/5"}
+    values = {f"{name}.1": value for name, value in (at_rest | first).items()}
+    values |= {f"{name}.2": value for name, value in (at_rest | second).items()}
+    return at(values | {"u_bar": 1, "alpha": "0.01", "J_0": INERTIA}, graph="path:2")
+
+
+@study.argument(theorem_1)
+def with_definite_Pi(run):
+    run.falls(V, by=[of_zeta(), of_switches()])  # (6) to (10)
+    run.lasalle(V, zero=[dq(i), s(i)], limit=[dq(i), s(i)])  # "according to lemma 1, zeta = 0"
+
+
+@study.argument(theorem_1)
+def with_semidefinite_Pi(run):
+    run.falls(V, by=[of_switches()])
+    run.bounded(dq(i), e(i, j), by=V)  # "V is bounded, hence dq_i and q_i - q_j"
+    run.barbalat(tau(i))  # "according to lemma 2"
+    run.falls(V_2, by=[beta * fleet.sum(i, s(i).T @ s(i))])  # "using tau_i = 0"
+    run.tends(e(i, j), by=V_2)  # "according to lemma 1"
+
+
+def of_zeta():
+    return fleet.sum(i, quadratic_form(i, K_o - beta, "0.5" * beta))
+
+
+def of_switches():
+    """The sum of eps_i |tau_i| as a product of components."""
+    return fleet.sum(i, (K_v * ones() - d(i)).T @ absolute(tau(i)))
+
+
+@study.corrected(
+    theorem_1,
+    using=[closed_loop_corrected, omega_from_rate],
+    why="With the corrected B the loop is as designed; K_o is at least beta times the graph's largest "
+    "eigenvalue, and the scalar parts do not change their sign.",
+)
 def synchronisation():
     """If beta lambda_max(L) <= K_o and no component of the disturbance, as it enters the acceleration of q,
     exceeds K_v, all attitudes become equal and all angular velocities zero, on every connected graph, as long
@@ -36,6 +200,7 @@ def synchronisation():
             d(i) <= K_v * ones(),
             d(i) >= -K_v * ones(),
             along_trajectory(q[i].scalar > 0),
+            apart(q[i].scalar),
         ],
         then=[
             tends(omega[i]),

@@ -4,8 +4,8 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Relies on the theorems of the rules (`kernel.rules`), one in each file. What is said is said of every solution
 on its maximal interval: absolutely continuous, and where the field jumps in the sense of Filippov, for every
-admissible signal (measurable, locally bounded). An assumption that speaks of states and not of the whole
-trajectory holds at the beginning only: an equation is used after its rate is shown to be zero, an inequality
+admissible signal (measurable, locally bounded). An assumption that speaks of states, and neither of a signal nor
+of the whole trajectory, holds at the beginning only: an equation is used after its rate is shown to be zero, an inequality
 after the rule `keeps`. The field is affine in its switches wherever a rate of |.| is taken: then every value
 of the field is that for one value of each switch, and |a| has the rate s a' for any s where a = 0.
 
@@ -161,6 +161,22 @@ class Argument:
                 found[edge] = domain.of_edge[edge.partition(" ")[2]]
         return found
 
+    def edges_are_known(self, traits: Traits) -> bool:
+        """Is all that it divides by, or takes roots of, known to stay inside its domain?"""
+        return all(self.edge_is_known(*edge.split(" ", 1)) for edge in traits.edges)
+
+    def edge_is_known(self, kind: str, key: str) -> bool:
+        words = {
+            "nonzero": ("", "positive "),
+            "positive": ("positive ",),
+            "nonnegative": ("positive ", "nonnegative "),
+            "unit": ("unit ",),
+        }
+        return any(("apart", f"{sign}{key}") in self.facts for sign in words[kind])
+
+    def learn_edge(self, kind: str, key: str) -> None:
+        self.facts.add(("apart", key if kind == "nonzero" else f"{kind} {key}"))
+
     def is_constant(self, quantity: str) -> bool:
         return all(map(self._is_parameter, self.traits(quantity).reads))
 
@@ -267,34 +283,64 @@ class Argument:
     def set_key(zero: bool, keys: Sequence[str], by: str = "") -> str:
         return f"{'=' if zero else '>='} {' '.join(sorted(keys))} {by}"
 
-    def begin(self) -> None:
-        """Sorts the assumptions, and asks that the equations about states are kept."""
+    def begin(self, cofactors: Mapping[str, str]) -> None:
+        """Sorts the assumptions, and asks that the equations about states are kept.
+
+        An equation g = 0 is kept where g' = c g for a c that is continuous in the state, not only where g = 0:
+        then g is exp(int c) times its value at the beginning. cofactors: c by the quantity of the equation.
+        """
         for k, assumption in enumerate(self.statement.given):
             keys = [self.output_traits(ref).key for ref in assumption.of]
-            if not self.reads_states(assumption) or assumption.about == "trajectory":
+            if assumption.about == "trajectory" or not self._is_of_the_beginning(assumption):
                 self.available.append(assumption)
                 self._learn_apart(assumption, keys)
             elif assumption.kind == "zero":
-                self.available.append(assumption)
                 self.relations.append((relation(k), assumption))
-            else:
+            elif assumption.kind in ("nonnegative", "positive"):
                 self.initial.append((keys[0], assumption))
         for quantity, assumption in self.relations:
-            self.prove(f"{assumption.text or quantity} is kept", "equal", ["g'", "0"], g=quantity)
+            self._keep(quantity, assumption, cofactors.get(quantity))
+        self.available += [assumption for _, assumption in self.relations]
+
+    def _keep(self, quantity: str, assumption: Assumption, cofactor: str | None) -> None:
+        role = f"{assumption.text or quantity} is kept"
+        self.require_differentiable(f"{role}: differentiable", quantity)
+        if cofactor is None:
+            self.prove(role, "equal", ["g'", "0"], g=quantity)
+            return
+        self.require(f"{role}: continuous", not self.traits(cofactor).jumps, f"{cofactor} jumps")
+        self.prove(role, "equal", ["g'", "c g *"], g=quantity, c=cofactor)
 
     def _learn_apart(self, assumption: Assumption, keys: Sequence[str]) -> None:
-        """A constant that is not zero, and what stays apart from zero along the trajectory by assumption."""
-        if assumption.kind in STRICT:
+        """A constant that is not zero stays apart from it."""
+        constant = self._is_about_constants(assumption)
+        if assumption.kind in STRICT and constant:
             self.facts |= {("apart", key) for key in keys}
-        if assumption.kind == "positive":
+        if assumption.kind == "positive" and constant:
             self.facts |= {("apart", f"positive {key}") for key in keys}
 
-    def reads_states(self, assumption: Assumption) -> bool:
+    def _is_of_the_beginning(self, assumption: Assumption) -> bool:
+        """Does it speak of states, and of no signal, whose admissible values it would say for all times?"""
+        reads = self._reads(assumption)
+        kinds, moving = self.statement.scalars, self.statement.motion
+        free = any(kinds.get(key) == "signal" and key not in moving for key in reads)
+        return not free and self.reads_states(assumption)
+
+    def _is_about_constants(self, assumption: Assumption) -> bool:
+        return all(
+            self.statement.scalars.get(key) == "parameter" or key in self.statement.names
+            for key in self._reads(assumption)
+        )
+
+    def _reads(self, assumption: Assumption) -> set[str]:
         reach = Reach(self.statement)
         for name, _ in assumption.of:
             reach.listing(name, "i", 0, None)
+        return reach.read
+
+    def reads_states(self, assumption: Assumption) -> bool:
         kinds, moving = self.statement.scalars, self.statement.motion
-        return any(kinds.get(key) in ("state", "input") or key in moving for key in reach.read)
+        return any(kinds.get(key) in ("state", "input") or key in moving for key in self._reads(assumption))
 
     def composed(self, obligation: Obligation, given: Sequence[Assumption]) -> Statement:
         """The statement of an obligation under some of the assumptions."""
@@ -325,7 +371,7 @@ class Argument:
         beside = obligation.beside
         kept: Sequence[Assumption] = self.available if beside.only is None else beside.only
         if beside.closed:
-            kept = [a for a in kept if a.kind not in STRICT or not self.reads_states(a)]
+            kept = [a for a in kept if a.kind not in STRICT or self._is_about_constants(a)]
         return [*kept, *beside.extra]
 
     def mint(self, name: str, formulas: Sequence[str]) -> None:

@@ -217,6 +217,9 @@ class Replay(Domain[Value]):
         return self._found("INV", [a])
 
     def function(self, op: str, args: Sequence[Value]) -> Value:
+        if op == "SIGN" and self.statement.along and self.field.is_zero(args[0]):
+            # at a jump the field has every value of the switch, not only that of sign(0)
+            raise Declined("a switch whose argument is zero by what is assumed")
         if op not in functions.RULES:
             raise Declined(f"{op.lower()} has no rule in the kernel")
         return self._found(op, list(args))

@@ -7,7 +7,7 @@ Theorem: a conclusion holds for every solution where a chain of rules gives it. 
 
 Proof fields: `listings`, `names`, `scalars`, `motion`, `laws`, more of what the statement has, for the
 argument alone; `quantities`, those of the listings, of one output each, that its lines speak of; `relations`,
-the proofs that equations are kept; `lines`, each {rule, of, proofs}. `of` has the quantities by role,
+the proofs that equations are kept, and `cofactors` c with g' = c g by the names of these; `lines`, each {rule, of, proofs}. `of` has the quantities by role,
 `proofs` by role of the obligation {given, proof}: which of the available assumptions the proof uses, and the
 proof.
 """
@@ -63,13 +63,16 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     """The conditions that the argument's proofs need. Raises Invalid or Declined where it does not close."""
     if statement.claim.kind != "theorem":
         raise Invalid(f"an argument does not prove the claim {statement.claim.kind}")
-    table = fields(proof, ("kind", *TABLES, "quantities", "relations", "lines"), "proof")
+    table = fields(proof, ("kind", *TABLES, "quantities", "relations", "cofactors", "lines"), "proof")
     whole, quantities = _whole(statement, table)
     checker = Checker()
     at = Argument(whole, quantities, checker, stated=frozenset(statement.motion))
     suppose(at)
     checker.proofs = typed(table["relations"], dict, "relations")
-    at.begin()
+    cofactors = typed(table["cofactors"], dict, "cofactors")
+    if any(c not in quantities for c in cofactors.values()):
+        raise Invalid("a cofactor is no quantity of the argument")
+    at.begin(cofactors)
     checker.close("relations")
     lines = typed(table["lines"], list, "lines")
     if len(lines) > MAX_LINES:
@@ -137,6 +140,8 @@ def concluded(at: Argument, sentence: Sentence) -> bool:
     if sentence.word == "stable":
         moving = {key for key, _ in sentence.at} <= set(at.stated)
         return moving and ("stable", point_key(dict(sentence.at))) in at.facts
+    if any(not at.edges_are_known(at.output_traits((at.statement.claim.listing, k))) for k in sentence.of):
+        return False  # it is not shown to be defined along every solution
     keys = [output_key(at, k) for k in sentence.of]
     by = "" if sentence.by is None else output_key(at, sentence.by)
     if sentence.word in ("stays", "enters", "settles", "eventually"):

@@ -38,7 +38,8 @@ class Traits:
     """Of one value: `key` is the same for equal structures. level: how smooth it is away from its jumps.
     jumps: keys of arguments at whose zeros it jumps. zeros: keys of arguments at whose zeros it vanishes.
     degree: in switches, 2 for more than affine. reads: free symbols. bounded: for certain.
-    edges: (kind, key) of what it divides by (nonzero) or takes roots and logarithms of (positive).
+    edges: `kind key` of what it divides by (nonzero), takes roots (nonnegative) and logarithms (positive) of, and
+    of the arguments of arcsine and arccosine (unit: at most 1 in absolute value).
     number: its value, if it is a literal.
     """
 
@@ -153,7 +154,7 @@ class Reading(Domain[Traits]):
             level = max(level, CONTINUOUS)
         zeros = a.zeros | {a.key} if grows else NOTHING
         bounded = inside and (grows or op in ("ASIN", "ACOS") or self.known_apart(a.key))
-        edge = "nonnegative" if grows or op in ("ASIN", "ACOS") else "positive"
+        edge = "unit" if op in ("ASIN", "ACOS") else "nonnegative" if grows else "positive"
         return self._made(
             key,
             args,

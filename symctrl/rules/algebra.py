@@ -11,6 +11,7 @@ from symctrl.decide.session import Session, exactly
 from symctrl.domains.field import Exact, Poly
 from symctrl.graph import Instruction, Tape
 from symctrl.kernel.argument import OBLIGATION
+from symctrl.kernel.compose import rate_listing
 from symctrl.kernel.values import Claim, Listing
 from symctrl.problem import star
 
@@ -97,6 +98,21 @@ def algebra(
         return exactly(problem, lambda s: work(Algebra(s, s.claim(), problem.scalars)))
     except NO_MEANING:
         return None
+
+
+def rate_over(chain: Chain, listing: str) -> Tape | None:
+    """The rate of a listing of one output over itself, where that is a polynomial."""
+    return algebra(chain, [rate_listing(listing, 1), listing], _exact_quotient)
+
+
+def _exact_quotient(found: Algebra) -> Tape | None:
+    domain = found.session.domain
+    above, below = found.values
+    (numerator, key), (divisor, own) = domain.together(above), domain.together(below)
+    if divisor.is_zero() or not found.is_constant({key: domain.field.polynomial(1)}) or own:
+        return None
+    quotient, rest = divmod(numerator, divisor)
+    return found.tape({key: quotient} if not quotient.is_zero() else {}) if rest.is_zero() else None
 
 
 def _together(listings: Sequence[Listing]) -> tuple[Any, Any]:

@@ -65,7 +65,7 @@ def _factors(chain: Chain, W: str, e: str, words: Mapping[str, str], least: Any)
 
 
 def _power(chain: Chain, power: Any) -> dict[str, str]:
-    return {"power": str(power)} if power in (1, 2) else {"power": "p", "p": chain.q(power)}
+    return {"power": str(power)} if isinstance(power, int) else {"power": "p", "p": chain.q(power)}
 
 
 def barbalat_rate(chain: Chain, what: What) -> bool:

@@ -15,10 +15,11 @@ from symctrl.kernel.closure import Reach
 from symctrl.kernel.compose import composed
 from symctrl.kernel.values import Sentence
 from symctrl.problem import split
-from symctrl.records import Sum
+from symctrl.records import Sum, letters
 from symctrl.rules.algebra import Algebra, algebra
 from symctrl.rules.chain import Chain
 from symctrl.rules.combination import combinations
+from symctrl.rules.edges import define, edges
 from symctrl.rules.loop import tape_of
 from symctrl.rules.tapes import bare, single
 from symctrl.written import StudyError
@@ -110,7 +111,7 @@ def total_of(chain: Chain, name: str, power: int = 2) -> str:
     assert fleet is not None
     e = shown(chain, name)
     summand = e * e if power == 2 else e
-    if "j" in chain.at.statement.listings[name].letters:
+    if "j" in letters(e):
         summand = fleet.sum(fleet.neighbour, summand)
     return chain.q(fleet.sum(fleet.node, summand))
 
@@ -277,8 +278,12 @@ def summable(chain: Chain, name: str) -> bool:
 
 
 def stays_apart(chain: Chain, name: str) -> bool:
-    """As a constant multiple of what does, or above its square."""
-    for z in chain.having("apart") + [q for q in _assumed_apart(chain) if chain.at.has("apart", q)]:
+    """As a constant, as a constant multiple of what stays apart, or above its square."""
+    if chain.at.is_constant(name):
+        return chain.attempt("carries", {"word": "apart", "how": "constant", "e": name})
+    supposed = [k for sentence in chain.loop.statement.claim.suppose if sentence.word == "apart" for k in sentence.of]
+    known = [claim_quantity(chain, k) for k in supposed]
+    for z in dict.fromkeys([*known, *chain.having("apart")]):
         if z == name or chain.at.is_constant(z):
             continue
         tape = algebra(chain, [name, z], _constant_quotient, relations=True)
@@ -289,16 +294,6 @@ def stays_apart(chain: Chain, name: str) -> bool:
         if chain.attempt("carries", {"word": "apart", "how": "above", "e": name, "by": z}):
             return True
     return False
-
-
-def _assumed_apart(chain: Chain) -> list[str]:
-    """The symbols that are assumed not to be zero along the trajectory, as quantities."""
-    found = []
-    for assumption in chain.at.available:
-        if assumption.kind in ("nonzero", "positive") and chain.at.reads_states(assumption):
-            listing, k = assumption.of[0]
-            found.append(chain.q(tape_of(single_output(chain.at.statement.listings[listing], k))))
-    return found
 
 
 def exponentially(chain: Chain, name: str) -> bool:
@@ -384,6 +379,7 @@ def conclude(chain: Chain, sentence: Sentence) -> bool:
     """Try to carry the facts so far over to a conclusion of the theorem."""
     if sentence.word == "exists":
         return existence(chain)
+    define(chain, sentence)
     names = [claim_quantity(chain, k) for k in sentence.of]
     if sentence.word in SETS:
         before = list(chain.outcomes)
@@ -402,14 +398,14 @@ def existence(chain: Chain) -> bool:
     """That solutions exist, where the states are bounded without more ado."""
     if ("exists", "") in chain.at.facts:
         return True
-    from symctrl.rules.lines import edges
-
     bounded_states(chain)
-    return chain.attempt("exists", {"edges": edges(chain)})
+    return chain.attempt("exists", {"edges": edges(chain, list(chain.at.edges()))})
 
 
 def bounded_reads(chain: Chain, listing: str) -> None:
-    """Carry boundedness over to what a listing reads, states and signals."""
+    """Carry boundedness over to what a listing reads, states and signals; of two nodes there is no rate."""
+    if listing not in chain.at.statement.listings:
+        return
     for name in sorted(chain.at.traits(listing).reads):
         if not chain.at.free_is_bounded(name):
             bounded(chain, chain.q(bare(name.replace(".j", ".i"))))

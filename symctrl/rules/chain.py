@@ -16,6 +16,7 @@ from symctrl.kernel.check import check_text
 from symctrl.kernel.rules.roles import Roles
 from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
+from symctrl.rules.algebra import rate_over
 from symctrl.rules.loop import Loop
 from symctrl.rules.seeker import Outcome, Seeker
 from symctrl.theorem import Line
@@ -58,6 +59,7 @@ class Chain:
     at: Argument = field(init=False)
     steps: list[Table] = field(default_factory=list)
     relations: Table = field(default_factory=dict)
+    cofactors: dict[str, str] = field(default_factory=dict)
     conditions: set[Condition] = field(default_factory=set)
     outcomes: list[Outcome] = field(default_factory=list)
     again: list[tuple[str, Table]] = field(default_factory=list)
@@ -67,9 +69,24 @@ class Chain:
         stated = frozenset(self.loop.problem.motion)
         self.at = Argument(self.loop.statement, (), self.seeker, stated=stated)
         suppose(self.at)
-        self.at.begin()
+        self.cofactors = self._cofactors()
+        self.seeker.outcomes = []
+        self.at.begin(self.cofactors)
         self.relations = self._proofs()
         self.outcomes = self.seeker.outcomes
+
+    def _cofactors(self) -> dict[str, str]:
+        """For each equation g = 0 about states whose rate is not zero by itself, c with g' = c g."""
+        seeker = Seeker(self.seeker.id, thorough=False)
+        trial = Argument(self.at.statement, (), seeker)
+        trial.begin({})
+        tried = [outcome for outcome in seeker.outcomes if outcome.problem is not None]
+        found = {}
+        for (quantity, _), outcome in zip(trial.relations, tried, strict=True):
+            tape = None if outcome.met else rate_over(self, quantity)
+            if tape is not None:
+                found[quantity] = self.q(tape)
+        return found
 
     # Quantities
 
@@ -172,14 +189,14 @@ class Chain:
 
     def certificate(self) -> Table:
         """The certificate of the whole argument, with the lines and quantities that it needs."""
-        used = list(
-            dict.fromkeys(name for step in self.steps for name in _named(step["of"], self.at.quantities))
-        )
+        named = [name for step in self.steps for name in _named(step["of"], self.at.quantities)]
+        used = list(dict.fromkeys([*self.cofactors.values(), *named]))
         proof = {
             "kind": "argument",
             **self.loop.added(used),
             "quantities": used,
             "relations": self.relations,
+            "cofactors": self.cofactors,
             "lines": self.steps,
         }
         conditions = sorted(self.conditions, key=lambda c: (c.kind, c.of))

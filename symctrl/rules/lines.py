@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from symctrl.graph import Tape
 from symctrl.rules import carries
 from symctrl.rules.chain import Chain
-from symctrl.rules.tapes import single
+from symctrl.rules.edges import edges
 
 What = Mapping[str, Any]
 
@@ -63,42 +62,7 @@ def keeps(chain: Chain, what: What) -> bool:
 
 def exists(chain: Chain, what: What) -> bool:
     carries.bounded_states(chain)
-    return chain.run("exists", {"edges": edges(chain)})
-
-
-def edges(chain: Chain) -> list[str]:
-    """Quantities for what the field divides by or takes roots of, where that is not known to stay apart."""
-    from symctrl.kernel.rules.exists import _is_known
-
-    wanted = {
-        key
-        for edge in chain.at.edges()
-        for kind, _, key in [edge.partition(" ")]
-        if not _is_known(chain.at, kind, key)
-    }
-    found: list[str] = []
-    for tape in arguments(chain):
-        if not wanted:
-            break
-        name = chain.q(tape)
-        key = chain.at.traits(name).key
-        if key in wanted:
-            wanted.discard(key)
-            if not carries.ensure(chain, "apart", name):
-                found.append(name)
-    return found
-
-
-def arguments(chain: Chain) -> list[Tape]:
-    """The arguments of divisions, roots and logarithms in the tables of the loop, as tapes of one output."""
-    found = []
-    for tape in list(chain.loop.collector.listings.values()):
-        for step in tape.code:
-            if step.op in ("DIV", "INV"):
-                found.append(single(tape, step.args[-1]))
-            elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
-                found.append(single(tape, step.args[0]))
-    return found
+    return chain.run("exists", {"edges": edges(chain, list(chain.at.edges()))})
 
 
 def lyapunov(chain: Chain, what: What) -> bool:

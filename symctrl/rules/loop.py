@@ -6,9 +6,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from symctrl.collect import Collector, Used
+from symctrl.collect import Collector, Used, _sides
 from symctrl.entries import component_names
-from symctrl.expr import Expr
+from symctrl.expr import Expr, walk
 from symctrl.facts import SETS, Fact
 from symctrl.graph import Instruction, Tape
 from symctrl.kernel import values as kernel
@@ -19,7 +19,7 @@ from symctrl.problem import ADVICE, PROVED, Assumption, Claim, Meaning, Output, 
 from symctrl.reach import Reach, _without_idle_law
 from symctrl.records import rate
 from symctrl.statements import Equal
-from symctrl.theorem import Theorem
+from symctrl.theorem import About, Theorem
 from symctrl.written import Law, StudyError
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ class Loop:
         self._close()
         for k, given in enumerate(theorem.given):
             if k != changed.dropped:
-                self.collector.assume(given.claim, given.about)
+                self.collector.assume(given.claim, self._about(given))
                 self._close()
         for used in using:
             if not isinstance(used.claim, Equal):
@@ -69,6 +69,20 @@ class Loop:
         self.quantities: dict[str, Expr | None] = {}
         self._by_tape: dict[str, str] = {}
         self._listings: dict[int, tuple[Tape, kernel.Listing]] = {}
+
+    def _about(self, given: About) -> str:
+        """What is assumed of a definition that is free is assumed of the trajectory, if it depends on states."""
+        own = {definition.entry.id for definition in self.theorem.free}
+        for expr in _sides(given.claim)[0]:
+            for node in walk(expr):
+                label = node.args[0].label.partition(".")[0] if node.op == "deferred" else ""
+                if label in own and any(self._is_state(name) for name in _symbols(node)):
+                    return "trajectory"
+        return given.about
+
+    def _is_state(self, name: str) -> bool:
+        declared = self.study.symbols.get(_declared(name))
+        return declared is not None and declared.kind == "state"
 
     def quantity(self, what: Expr | Tape) -> str:
         """The name of a scalar expression, or of a tape of one output, as a quantity of the argument."""
@@ -94,10 +108,12 @@ class Loop:
 
     def _base(self, empty: Problem) -> Problem:
         """The theorem's problem with what its solutions read, and nothing else."""
-        whole = reached(self._tables(empty), ["claim"], self.law)
-        if self.law is not None and self.law not in whole.laws:
+        tables = self._tables(empty)
+        law = self.law if self.law in tables.laws else None
+        whole = reached(tables, ["claim"], law)
+        if law not in whole.laws:
             self.law = None
-            whole = reached(self._tables(empty), ["claim"], None)
+            whole = reached(tables, ["claim"], None)
         stated = {"law": self.law, "suppose": self.suppose, "then": self.then}
         return replace(whole, claim=Claim("theorem", "claim", theorem=stated))
 
@@ -206,6 +222,8 @@ class Loop:
         parts = []
         for facts in (theorem.suppose, theorem.then):
             parts.append([self._sentence(fact, exprs) for fact in facts])
+        read = {name for expr in exprs for name in _symbols(expr)}
+        exprs += [expr for expr in whole_systems(self.study, read) if expr.args[0] not in read]
         self.collector.add("claim", exprs or [_zero()])
         return parts[0], parts[1]
 
@@ -268,6 +286,30 @@ def reached(problem: Problem, roots: Sequence[str], law: str | None) -> Problem:
         motion={n: of for n, of in problem.motion.items() if n in looped or n in reach.moved},
         laws=laws,
     )
+
+
+def whole_systems(study: Study, read: set[str]) -> list[Expr]:
+    """All states with a motion of the systems of which a state is read; of the study's model if none is."""
+    moving = {x.args[0]: x for x, _ in study.motions}
+    systems = {study.symbols[_declared(name)].system for name in moving if name in read}
+    return [x for name, x in moving.items() if study.symbols[_declared(name)].system in (systems or {None})]
+
+
+def _declared(name: str) -> str:
+    return name.replace(".i", ".*")
+
+
+def _symbols(expr: Expr) -> set[str]:
+    """The symbols in an expression and in all that it stands for, at node i."""
+    found: set[str] = set()
+    waiting = [expr]
+    while waiting:
+        for node in walk(waiting.pop()):
+            if node.op == "symbol":
+                found.add(node.args[0].replace(".j", ".i"))
+            elif node.op == "deferred" and hasattr(node.args[0], "body"):
+                waiting.append(node.args[0].body)
+    return found
 
 
 def scalars_at(study: Study, at: Mapping[str, Sequence[Any]], what: str) -> dict[str, Any]:

@@ -8,6 +8,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from symctrl.collect import UndefinedLetter
+from symctrl.expr import Nonconforming
 from symctrl.kernel.values import Sentence
 from symctrl.problem import Problem
 from symctrl.rows import Row
@@ -38,6 +40,7 @@ class Tried:
     conditions: tuple[Condition, ...] = ()
     certificate: dict[str, Any] | None = None
     refused: str | None = None
+    ill_formed: str | None = None
 
     @property
     def closes(self) -> bool:
@@ -46,6 +49,8 @@ class Tried:
     @property
     def why_not(self) -> str:
         """The first cause."""
+        if self.ill_formed is not None:
+            return f"it does not conform: {self.ill_formed}"
         for outcome in self.begin:
             if not outcome.met:
                 return f"{outcome.role}: {outcome.reason}"
@@ -74,7 +79,7 @@ def decide(study: Study, theorem: Theorem, id_: str, equation: str, using: Seque
     loop = Loop(study, theorem, id_, using)
     refuse_assumed_conclusions(loop, id_)
     entries = [entry for entry in study.arguments if entry.theorem == id_]
-    tried = [attempt(Loop(study, theorem, id_, using), entry) for entry in entries]
+    tried = [conforming(Loop(study, theorem, id_, using), entry) for entry in entries]
     rows = tuple(row for one in tried for row in rows_of(one, id_, equation))
     closing = next((one for one in tried if one.closes), None)
     refuted = _refuted(study, loop, id_)
@@ -96,6 +101,14 @@ def decide(study: Study, theorem: Theorem, id_: str, equation: str, using: Seque
     reason = "; ".join(reasons) or "no argument and no counterexample is given"
     unmet = tuple(r.id for r in rows if r.form == "obligation" and r.verdict != "proved")
     return Decided(loop.problem, Verdict(Verdicts.UNDECIDED, reason, "rules"), rows, (), unmet, tuple(tried))
+
+
+def conforming(loop: Loop, entry: ArgumentEntry) -> Tried:
+    """The argument, decided; one that does not conform proves nothing."""
+    try:
+        return attempt(loop, entry)
+    except (Nonconforming, UndefinedLetter) as error:
+        return Tried(entry, (), (), (), ill_formed=str(error))
 
 
 def attempt(loop: Loop, entry: ArgumentEntry, thorough: bool = True) -> Tried:

@@ -9,8 +9,7 @@ rate has a finite integral. tends. e tends to zero where d e = c_1 z_1 + .. with
 bounded c; where a e^2 <= V and V tends to zero. For a fleet, a sum over all nodes (and neighbours) of squares
 takes the place of the square, and is not less than it; and the sum over all nodes of what tends to zero at
 each node tends to zero. summable. e is summable where a |e| <= W_1 + .. with summable W. exponentially. |e|
-decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2 >= k > 0. sets. Where
-V <= r or V = 0 is reached, kept, .., so is every set that contains it.
+decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2 >= k > 0. sets. Where a set is reached, reached and kept, or holds for all large times, so does every set that contains it.
 
 Proofs. Each is immediate.
 """
@@ -23,7 +22,7 @@ from symctrl.kernel.argument import OBLIGATION, Argument, Beside
 from symctrl.kernel.rules.roles import Roles
 from symctrl.kernel.values import Assumption
 
-SET_WORDS = ("stays", "enters", "settles", "eventually")
+SET_WORDS = ("enters", "settles", "eventually")  # a set that is never left may lie in one that is
 
 
 def carries(at: Argument, of: Roles) -> None:
@@ -164,6 +163,14 @@ def _apart_as_multiple(at: Argument, of: Roles) -> None:
     at.learn("apart", e)
 
 
+def _apart_constant(at: Argument, of: Roles) -> None:
+    """A constant that is not zero."""
+    e = of.one("e")
+    at.require_constant("e is constant", e)
+    at.prove("e is not zero", "positive", "e e *", e=e)
+    at.learn("apart", e)
+
+
 def _apart_above(at: Argument, of: Roles) -> None:
     """e^2 >= z^2."""
     e, z = of.one("e"), of.one("by")
@@ -248,6 +255,7 @@ WAYS: dict[tuple[str, str], Callable[[Argument, Roles], None]] = {
     ("tends", "sum"): _sum_of_small,
     ("apart", "multiple"): _apart_as_multiple,
     ("apart", "above"): _apart_above,
+    ("apart", "constant"): _apart_constant,
     ("summable", "parts"): _summable,
     ("exponentially", "square"): _rate,
     ("apart", "square"): _apart,

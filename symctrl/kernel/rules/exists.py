@@ -23,6 +23,7 @@ PROVED_AS = {
     "nonzero": ("positive", "q q *"),
     "positive": ("positive", "q"),
     "nonnegative": ("nonnegative", "q"),
+    "unit": ("nonnegative", "1 q q * -"),
 }
 
 
@@ -32,21 +33,19 @@ def exists(at: Argument, of: Roles) -> None:
     for state, rate in at.field().items():
         bounded = at.state_is_bounded(state) or rate.bounded
         at.require(f"{state} stays finite", bounded, f"neither {state} nor its rate is known to be bounded")
+    named: set[str] = set()
     for edge, traits in at.edges().items():
         kind, _, key = edge.partition(" ")
-        if _is_known(at, kind, key):
+        if at.edge_is_known(kind, key):
             continue
-        quantity = shown.pop(key, None)
+        quantity = shown.get(key)
         reads = ", ".join(sorted(traits.reads))
         missing = f"what must be {kind} for the field to be defined is not shown to stay so ({reads})"
         at.require("the field stays defined", quantity is not None, missing)
         if quantity is not None:
+            named.add(key)
             proved, formula = PROVED_AS[kind]
             at.prove(f"{quantity} is {kind}", proved, formula, Beside(closed=True), q=quantity)
-    at.require("no edge is named in vain", not shown, "a quantity is named that the field does not divide by")
+            at.learn_edge(kind, key)
+    at.require("no edge is named in vain", named == set(shown), "a quantity is named that the field does not need")
     at.facts.add(("exists", ""))
-
-
-def _is_known(at: Argument, kind: str, key: str) -> bool:
-    words = {"nonzero": ("", "positive "), "positive": ("positive ",), "nonnegative": ("positive ",)}
-    return any(("apart", f"{sign}{key}") in at.facts for sign in words[kind])

@@ -1,0 +1,56 @@
+"""Where the field and the conclusions are defined: what they divide by, and take roots and logarithms of."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from symctrl.graph import Tape
+from symctrl.kernel.values import Sentence
+from symctrl.rules.chain import Chain
+from symctrl.rules.tapes import single
+
+
+def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
+    """Quantities for those arguments (`kind key`) that are not known to stay inside, nor can be carried over."""
+    from symctrl.rules.carries import ensure
+
+    open_ = {edge.split(" ", 1)[1] for edge in wanted if not chain.at.edge_is_known(*edge.split(" ", 1))}
+    found: list[str] = []
+    for tape in arguments(chain):
+        if not open_:
+            break
+        name = chain.q(tape)
+        key = chain.at.traits(name).key
+        if key in open_:
+            open_.discard(key)
+            ensure(chain, "apart", name)
+            found.append(name)
+    return [
+        name
+        for name in found
+        if any(
+            edge.endswith(f" {chain.at.traits(name).key}")
+            and not chain.at.edge_is_known(*edge.split(" ", 1))
+            for edge in wanted
+        )
+    ]
+
+
+def define(chain: Chain, sentence: Sentence) -> None:
+    """What a conclusion divides by stays apart from zero, where that can be carried over."""
+    for k in sentence.of:
+        traits = chain.at.output_traits((chain.loop.statement.claim.listing, k))
+        if not chain.at.edges_are_known(traits):
+            edges(chain, sorted(traits.edges))
+
+
+def arguments(chain: Chain) -> list[Tape]:
+    """The arguments of divisions, roots and logarithms in the tables of the loop, as tapes of one output."""
+    found = []
+    for tape in list(chain.loop.collector.listings.values()):
+        for step in tape.code:
+            if step.op in ("DIV", "INV"):
+                found.append(single(tape, step.args[-1]))
+            elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
+                found.append(single(tape, step.args[0]))
+    return found
