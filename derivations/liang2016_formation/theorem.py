@@ -22,45 +22,6 @@ from symctrl import along, along_trajectory, apart, at, bounded, claim, equal, s
 from symctrl.vectors import absolute, power, stack
 
 i, j = fleet.node, fleet.neighbour
-INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
-Lambda = study.gain("Lambda", unit="1", tex=r"\Lambda")  # an upper bound of the Laplacian's eigenvalues
-
-
-# A Lyapunov function that falls at the rate w_t, and a quantity with the rate y_t, along one solution.
-V_t, x_t = study.state("V_t", system="lemma 1"), study.state("x_t", system="lemma 1")
-w_t, y_t = study.disturbance("w_t"), study.disturbance("y_t")
-c_t = study.gain("c_t")
-study.motion(V_t, -w_t)
-study.motion(x_t, y_t)
-
-# A function of time, its rate, and an exponent.
-f_t, g_t = study.state("f_t", system="lemma 2"), study.disturbance("g_t")
-p_t = study.parameter("p_t", unit="1")
-study.motion(f_t, g_t)
-
-
-@study.printed(
-    "lemma 1",
-    reading="along one solution, with x = 0 the set G; f is continuous, so that x has a bounded rate",
-)
-def lemma_1():
-    """A bounded quantity x with V' <= -c x^2 for a V that is not negative tends to zero."""
-    return claim(
-        given=[w_t >= c_t * x_t**2, along_trajectory(V_t >= 0), bounded(x_t, y_t)],
-        then=[tends(x_t)],
-    )
-
-
-@study.argument(lemma_1)
-def along_one_solution(run):
-    run.falls(V_t, by=c_t * x_t**2)
-    run.barbalat(x_t)
-
-
-@study.printed(
-    INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
-Lambda = study.gain("Lambda", unit="1", tex=r"\Lambda")  # an upper bound of the Laplacian's eigenvalues
-
 
 # A Lyapunov function that falls at the rate w_t, and a quantity with the rate y_t, along one solution.
 V_t, x_t = study.state("V_t", system="lemma 1"), study.state("x_t", system="lemma 1")
@@ -100,24 +61,28 @@ def along_one_solution(run):
     },
 )
 def lemma_2():
-    """A bounded quantity whose rate is bounded and lies in L_p, with p >= 1, tends to zero."""
-    return claim(given=[p_t >= 1, bounded(x_t, y_t), summable(power(absolute(y_t), p_t))], then=[tends(x_t)])
+    """A bounded function whose rate is bounded and lies in L_p, with p >= 1, tends to zero."""
+    return claim(given=[p_t >= 1, bounded(f_t, g_t), summable(power(absolute(g_t), p_t))], then=[tends(f_t)])
 
 
 @study.counterexample(lemma_2)
 def a_constant():
-    return along(x_t=1, y_t=0, p_t=2)
+    return along(f_t=1, g_t=0, p_t=2)
 
 
 @study.corrected(lemma_2, why="The function itself lies in L_p; of its rate it is enough that it is bounded.")
-def lemma_2_of_x():
-    """A quantity that lies in L_p, with p >= 1, and has a bounded rate tends to zero."""
-    return claim(given=[p_t >= 1, bounded(x_t, y_t), summable(power(absolute(x_t), p_t))], then=[tends(x_t)])
+def lemma_2_of_the_function():
+    """A function that lies in L_p, with p >= 1, and has a bounded rate tends to zero."""
+    return claim(given=[p_t >= 1, bounded(f_t, g_t), summable(power(absolute(f_t), p_t))], then=[tends(f_t)])
 
 
-@study.argument(lemma_2_of_x)
+@study.argument(lemma_2_of_the_function)
 def by_uniform_continuity(run):
-    run.barbalat(x_t, of=power(absolute(x_t), p_t), power=p_t)
+    run.barbalat(f_t, of=power(absolute(f_t), p_t), power=p_t)
+
+
+Lambda = study.gain("Lambda", unit="1", tex=r"\Lambda")  # an upper bound of the Laplacian's eigenvalues
+INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
 
 
 @study.claimed("after (1)")
