@@ -26,6 +26,7 @@ from symctrl.domains.field import Exact, Poly, coefficient
 MAX_CANDIDATES = 1500
 MAX_MONOMIALS = 400
 MAX_PRODUCTS = 25
+MAX_TERMS = 3000  # of a polynomial for whose sign a proof is looked for
 MAX_OCCURRING = 16
 MAX_PAIRED = 8  # symbols whose sums and differences are tried
 MAX_REPEATED = 4
@@ -64,6 +65,8 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     terms = terms_of(session, value, strict, known)
     if terms is not None:
         return {"terms": terms}
+    if len(session.carrier(value)) > MAX_TERMS:
+        return None
     found = _by_fact(session, value, strict) or (
         None if strict else _by_scaled_completion(session, value, known)
     )
@@ -120,6 +123,8 @@ def terms_of(
     """The terms of a combination that proves the value nonnegative (positive if strict), or None."""
     known = known or Known()
     p = session.carrier(value)
+    if len(p) > MAX_TERMS:
+        return None
     for form in (p, session.domain.field.normal(p)):
         sign = session.domain.signs.of(form)
         if sign == "positive" or (sign == "nonnegative" and not strict):

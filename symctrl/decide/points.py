@@ -198,6 +198,8 @@ def _holds_at(place: Place, assumption: Assumption, values: list[Fraction]) -> b
     if assumption.kind != "laplacian_bound":
         return _holds(assumption, values)
     at = place.neighbours
+    if not at:
+        return True
     entries = [values[0] - len(at[a]) if a == b else Fraction(b in at[a]) for a in at for b in at]
     return _holds(replace(assumption, kind="positive_semidefinite", size=len(at)), entries)
 

@@ -50,8 +50,7 @@ class Done:
 class Chain:
     """The state of an argument on its way: the loop, the facts, and the kernel's lines so far.
 
-    again: lines that may give more once more is known of their input, or that solutions exist. broken: a line
-    has failed; those below are tried without looking for refutations.
+    again: lines that may give more once more is known of their input, or that solutions exist.
     """
 
     loop: Loop
@@ -63,7 +62,6 @@ class Chain:
     conditions: set[Condition] = field(default_factory=set)
     outcomes: list[Outcome] = field(default_factory=list)
     again: list[tuple[str, Table]] = field(default_factory=list)
-    broken: bool = False
 
     def __post_init__(self) -> None:
         stated = frozenset(self.loop.problem.motion)
@@ -112,7 +110,7 @@ class Chain:
 
     def run(self, rule: str, table: Mapping[str, Any]) -> bool:
         """Try a line with all its obligations, refuting where it can; its facts count if all are met."""
-        met = self._tried(rule, table, thorough=not self.broken)
+        met = self._tried(rule, table, thorough=True)
         self.outcomes += self.seeker.outcomes
         return met
 
@@ -168,19 +166,18 @@ class Chain:
     def decided(
         self, lines: Sequence[Line], planners: Mapping[str, Callable[[Chain, Mapping[str, Any]], bool]]
     ) -> Iterator[Done]:
-        """The author's lines in turn; below a broken one those that fail for want of a fact are blocked."""
-        self.broken = any(not o.met for o in self.outcomes)
+        """The author's lines in turn; those below a broken one are blocked."""
+        broken = any(not o.met for o in self.outcomes)
         for line in lines:
+            if broken:
+                yield Done(line, (), blocked=True)
+                continue
             self.outcomes = []
             try:
-                met = planners[line.rule](self, line.what)
+                broken = not planners[line.rule](self, line.what)
             except (Invalid, Declined) as error:
-                met = self.fail(line.rule, str(error))
-            done = Done(line, tuple(self.outcomes))
-            if not met and self.broken:
-                done = Done(line, tuple(o for o in self.outcomes if o.met), blocked=True)
-            self.broken = self.broken or not met
-            yield done
+                broken = not self.fail(line.rule, str(error))
+            yield Done(line, tuple(self.outcomes))
 
     def open_conclusions(self) -> list[Sentence]:
         """The conclusions that no line has given yet."""

@@ -9,7 +9,7 @@ from typing import Any
 
 from symctrl.decide.decision import DECIDERS, PROVERS
 from symctrl.decide.solve import NoPoint
-from symctrl.decide.witness import Witness
+from symctrl.decide.witness import Witness, refute
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.opaque import NowhereDefined
 from symctrl.domains.tangent import NotDifferentiable
@@ -25,6 +25,7 @@ from symctrl.reach import pruned
 from symctrl.rules import totals
 from symctrl.rules.loop import assumption_of, tape_of
 
+FIRST_TRIES, TRIES = 3, 200  # points at which an obligation is tried, before and after a proof
 NO_MEANING = (Unsupported, NowhereDefined, NotDifferentiable, NoRate, NoPoint)
 
 
@@ -55,6 +56,7 @@ class Seeker:
         self.tapes: dict[int, tuple[kernel.Listing, Tape]] = {}
         self.meanings: dict[int, tuple[kernel.Meaning, Meaning]] = {}
         self.known: dict[str, Outcome] = {}
+        self.pointless: set[tuple[str, ...]] = set()
 
     def prove(self, at: Argument, obligation: Obligation) -> None:
         usable = at.usable(obligation)
@@ -110,6 +112,9 @@ class Seeker:
     ) -> Outcome:
         own = [assumption_of(a) for a in usable]
         numbers = tuple(own.index(a) for a in problem.given)
+        false = self._first_look(problem)
+        if false is not None:
+            return Outcome(obligation.role, False, false.says, problem, numbers, witness=false)
         try:
             proof = PROVERS[problem.claim.kind](problem)
             if proof is None and problem.claim.kind == "nonnegative" and totals.speaks_of_totals(problem):
@@ -130,6 +135,17 @@ class Seeker:
         if not self.thorough:
             return Outcome(obligation.role, False, reason, problem, numbers)
         return self._refuted(obligation, problem, numbers, reason)
+
+    def _first_look(self, problem: Problem) -> Witness | None:
+        """A witness among a few points: what is false by much is refuted before it is evaluated exactly."""
+        under = tuple(a.text for a in problem.given)
+        if problem.claim.matrix is not None or under in self.pointless:
+            return None
+        try:
+            return refute(problem, FIRST_TRIES)
+        except NO_MEANING:
+            self.pointless.add(under)
+            return None
 
     def _of_totals(
         self,
@@ -157,11 +173,13 @@ class Seeker:
         self, obligation: Obligation, problem: Problem, numbers: tuple[int, ...], reason: str
     ) -> Outcome:
         try:
-            found = DECIDERS[problem.claim.kind](problem)
+            if problem.claim.matrix is None:
+                witness = refute(problem, TRIES)
+            else:
+                witness = DECIDERS[problem.claim.kind](problem).witness
         except NO_MEANING as error:
             return Outcome(obligation.role, False, f"{reason}; {error}", problem, numbers)
-        if found.witness is not None:
-            return Outcome(
-                obligation.role, False, found.witness.says, problem, numbers, witness=found.witness
-            )
-        return Outcome(obligation.role, False, found.reason or reason, problem, numbers)
+        if witness is None:
+            why = f"{reason}, and none of {TRIES} points refutes it"
+            return Outcome(obligation.role, False, why, problem, numbers)
+        return Outcome(obligation.role, False, witness.says, problem, numbers, witness=witness)
