@@ -308,7 +308,7 @@ class Collector:
         target = law.target
         base = target.args[0].replace(".i", ".*")
         self.laws[name] = {s: (f"law {name}", k) for k, s in enumerate(component_names(base, target.shape))}
-        self.add(f"law {name}", [self.bodies.get(name) or law.body()])
+        self.add(f"law {name}", [self.bodies[name] if name in self.bodies else law.body()])
         for scalar in self.laws[name]:
             self.scalars.setdefault(scalar, "input")
 

@@ -14,7 +14,7 @@ from symctrl.theorem import Theorem
 from symctrl.verdict import Outcome, Verdict
 
 if TYPE_CHECKING:
-    from symctrl.rows import Row
+    from symctrl.rows import Row, Twins
     from symctrl.store import Store
     from symctrl.study import Study
     from symctrl.written import Entry
@@ -37,6 +37,7 @@ class Decided:
     below: tuple[Row, ...] = ()
     steps: tuple[str, ...] = ()
     unmet: tuple[str, ...] = ()
+    twins: Twins | None = None
 
     @property
     def at_values(self) -> bool:
@@ -53,19 +54,28 @@ def decide(study: Study, entry: Entry, reading: str | None, store: Store | None,
                 claim = Conforms(_body(study, entry, claim))
             using = tuple(_used(study, other) for other in entry.using)
             if isinstance(claim, Theorem):
-                return _theorem(study, entry, claim, using, bool(marks))
+                return _theorem(study, entry, claim, using, bool(marks), store)
             found = tuple(parts(study, claim, entry.id, using=using))
         except (Nonconforming, UndefinedLetter) as error:
             return Decided(None, (), Verdict(Outcome.ILL_FORMED, str(error)), of_graph=bool(marks))
         return Decided(claim, found, verdict_of(found, store), using, bool(marks))
 
 
-def _theorem(study: Study, entry: Entry, claim: Theorem, using: tuple[Used, ...], of_graph: bool) -> Decided:
+def _theorem(
+    study: Study,
+    entry: Entry,
+    claim: Theorem,
+    using: tuple[Used, ...],
+    of_graph: bool,
+    store: Store | None,
+) -> Decided:
     from symctrl.rules import theorems
 
-    made = theorems.decide(study, claim, entry.id, entry.equation, using)
+    made = theorems.decide(study, claim, entry.id, entry.equation, using, store)
     part = Part(made.problem)
-    return Decided(claim, (part,), made.verdict, using, of_graph, made.rows, made.rests_on, made.unmet)
+    return Decided(
+        claim, (part,), made.verdict, using, of_graph, made.rows, made.rests_on, made.unmet, made.twins
+    )
 
 
 def _used(study: Study, entry: Entry) -> Used:

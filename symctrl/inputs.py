@@ -22,7 +22,7 @@ def inputs_digest(study: Study, wanted: Collection[str]) -> str:
     return digest(
         {
             "study": study.name,
-            "files": _files(study),
+            "files": files_of(study),
             "symbols": {name: _symbol(study, name) for name in sorted(study.symbols)},
             "assumed": [[assumed.claim.text(), assumed.about] for assumed in study.assumed],
             "motions": [[text(x), text(xdot)] for x, xdot in study.motions],
@@ -33,9 +33,12 @@ def inputs_digest(study: Study, wanted: Collection[str]) -> str:
     )
 
 
-def _files(study: Study) -> list[str]:
+def files_of(study: Study) -> list[str]:
     """The digests of the files in which the study's functions are written."""
-    written = {Path(entry.function.__code__.co_filename) for entry in study.entries.values()}
+    functions = [
+        entry.function for entry in (*study.entries.values(), *study.arguments, *study.counterexamples)
+    ]
+    written = {Path(function.__code__.co_filename) for function in functions}
     return sorted(sha256(path.read_bytes()).hexdigest() for path in written if path.is_file())
 
 

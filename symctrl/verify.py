@@ -14,9 +14,9 @@ from symctrl.context import within
 from symctrl.decide.claims import Part
 from symctrl.deciding import Decided, decide, is_named, with_corrections
 from symctrl.dimensions import units_of
+from symctrl.expr import scalars
 from symctrl.inputs import inputs_digest
 from symctrl.latex import latex
-from symctrl.expr import scalars
 from symctrl.problem import PROVED, star
 from symctrl.rows import Given, Report, Row
 from symctrl.statements import Conforms, Equal
@@ -217,7 +217,7 @@ def _with_evidence(study: Study, decided: Decided, row: Row) -> Row:
         reason = f"{row.reason}; no point is known at which all assumptions hold"
         return replace(row, reason=reason, point_known=False)
     if isinstance(decided.claim, Theorem):
-        return row
+        return replace(row, twins=decided.twins)
     if not isinstance(decided.claim, Equal) or len(decided.parts) != 1:
         return replace(row, twins=evidence.reversed_twins(problems))
     found = evidence.numeric(decided.parts[0].problem)

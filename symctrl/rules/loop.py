@@ -51,6 +51,8 @@ class Loop:
         self.collector = Collector(study, bodies=changed.laws)
         self.law = " and ".join(law.name for law in self.laws) or None
         self.suppose, self.then = self._claim_listing(theorem)
+        if changed.forgotten is not None:
+            del self.suppose[changed.forgotten]
         self._close()
         for k, given in enumerate(theorem.given):
             if k != changed.dropped:
@@ -71,7 +73,7 @@ class Loop:
         self._listings: dict[int, tuple[Tape, kernel.Listing]] = {}
 
     def _about(self, given: About) -> str:
-        """What is assumed of a definition that is free is assumed of the trajectory, if it depends on states."""
+        """What is assumed of a free definition is assumed of the trajectory, if that depends on states."""
         own = {definition.entry.id for definition in self.theorem.free}
         for expr in _sides(given.claim)[0]:
             for node in walk(expr):
@@ -248,11 +250,13 @@ class Loop:
 
 @dataclass(frozen=True)
 class Changed:
-    """A twin of a theorem: without one assumption, or with other laws. along: with the study's assumptions
-    about the
-    trajectory."""
+    """A twin of a theorem: without one assumption (dropped), or one supposition (forgotten), or with other laws.
+
+    along: with the study's assumptions about the trajectory.
+    """
 
     dropped: int | None = None
+    forgotten: int | None = None
     laws: Mapping[str, Expr] = field(default_factory=dict)
     along: bool = True
 

@@ -4,26 +4,32 @@ accepts, otherwise undecided with what is missing; and one row for each line and
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from symctrl.certify import digest, tool
 from symctrl.collect import UndefinedLetter
+from symctrl.context import current
 from symctrl.expr import Nonconforming
+from symctrl.inputs import files_of
 from symctrl.kernel.values import Sentence
 from symctrl.problem import Problem
-from symctrl.rows import Row
+from symctrl.rows import Row, Twins
 from symctrl.rules.carries import conclude
 from symctrl.rules.chain import Chain, Done, accepted, recorded
 from symctrl.rules.loop import Loop
 from symctrl.rules.planners import PLANNERS
 from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.rules.twins import twins
 from symctrl.theorem import ArgumentEntry, Theorem
 from symctrl.verdict import Condition, Verdict
 from symctrl.verdict import Outcome as Verdicts
 
 if TYPE_CHECKING:
     from symctrl.collect import Used
+    from symctrl.store import Store
     from symctrl.study import Study
 
 PHRASES = {"exists": "solutions exist for all time"}
@@ -64,20 +70,43 @@ class Tried:
 
 @dataclass(frozen=True)
 class Decided:
-    """A theorem's problem, verdict and rows of its arguments."""
+    """A theorem's problem, verdict, rows of its arguments, and what became of its twins."""
 
     problem: Problem
     verdict: Verdict
     rows: tuple[Row, ...]
     rests_on: tuple[str, ...] = ()
     unmet: tuple[str, ...] = ()
-    tried: tuple[Tried, ...] = field(default=())
+    twins: Twins | None = None
 
 
-def decide(study: Study, theorem: Theorem, id_: str, equation: str, using: Sequence[Used] = ()) -> Decided:
-    """The verdict with the definitions and laws of the instance at hand. Raises StudyError."""
+def decide(
+    study: Study,
+    theorem: Theorem,
+    id_: str,
+    equation: str,
+    using: Sequence[Used] = (),
+    store: Store | None = None,
+) -> Decided:
+    """The verdict with the definitions and laws of the instance at hand. Raises StudyError.
+
+    It is taken from the store if nothing in the study's files has changed and the kernel accepts it again.
+    """
     loop = Loop(study, theorem, id_, using)
     refuse_assumed_conclusions(loop, id_)
+    key = digest([loop.problem.sha256, files_of(study), current().variant, tool()])
+    kept = store.get(key) if store is not None else None
+    known = None if kept is None else _read(loop.problem, kept)
+    if known is not None:
+        return known
+    made = _decided(study, loop, id_, equation)
+    if store is not None:
+        store.put(key, _written(made))
+    return made
+
+
+def _decided(study: Study, loop: Loop, id_: str, equation: str) -> Decided:
+    theorem, using = loop.theorem, loop.using
     entries = [entry for entry in study.arguments if entry.theorem == id_]
     tried = [conforming(Loop(study, theorem, id_, using), entry) for entry in entries]
     rows = tuple(row for one in tried for row in rows_of(one, id_, equation))
@@ -94,13 +123,53 @@ def decide(study: Study, theorem: Theorem, id_: str, equation: str, using: Seque
         )
         prefix = f"{id_}/{closing.entry.id}/"
         steps = tuple(r.id for r in rows if r.id.startswith(prefix) and r.form == "step")
-        return Decided(loop.problem, verdict, rows, steps, (), tuple(tried))
+        laws = [law.name for law in loop.laws if loop.problem.laws]
+        found = twins(study, theorem, id_, using, closing.entry, laws)
+        return Decided(loop.problem, verdict, rows, steps, (), found)
     if isinstance(refuted, Verdict):
-        return Decided(loop.problem, refuted, rows, (), (), tuple(tried))
+        return Decided(loop.problem, refuted, rows)
     reasons = [f"{one.entry.id}: {one.why_not}" for one in tried] + refuted
     reason = "; ".join(reasons) or "no argument and no counterexample is given"
     unmet = tuple(r.id for r in rows if r.form == "obligation" and r.verdict != "proved")
-    return Decided(loop.problem, Verdict(Verdicts.UNDECIDED, reason, "rules"), rows, (), unmet, tuple(tried))
+    return Decided(loop.problem, Verdict(Verdicts.UNDECIDED, reason, "rules"), rows, (), unmet)
+
+
+def _written(made: Decided) -> dict[str, Any]:
+    verdict = made.verdict
+    return {
+        "outcome": verdict.outcome.value,
+        "reason": verdict.reason,
+        "method": verdict.method,
+        "conditions": [[c.kind, c.of] for c in verdict.conditions],
+        "certificate": verdict.certificate,
+        "witness": verdict.witness,
+        "rows": [row.as_json() for row in made.rows],
+        "rests_on": list(made.rests_on),
+        "unmet": list(made.unmet),
+        "twins": None if made.twins is None else [made.twins.tried, list(made.twins.still_true)],
+    }
+
+
+def _read(problem: Problem, kept: Mapping[str, Any]) -> Decided | None:
+    """What was decided before; None where the kernel does not accept it as a verdict of this very problem."""
+    conditions = tuple(Condition(kind, of) for kind, of in kept["conditions"])
+    outcome = Verdicts(kept["outcome"])
+    if outcome is not Verdicts.UNDECIDED:
+        stated = problem.statement([{"kind": c.kind, "of": c.of} for c in conditions])
+        made = kept["certificate"]
+        kind = "argument" if outcome is Verdicts.PROVED else "against"
+        same = made is not None and made["statement"] == json.loads(json.dumps(stated))
+        if not same or made["proof"]["kind"] != kind or accepted(made) is not None:
+            return None
+    verdict = Verdict(
+        outcome, kept["reason"], kept["method"], conditions, kept["certificate"], kept["witness"]
+    )
+    rows = tuple(
+        Row(**row | {"rests_on": tuple(row["rests_on"]), "unmet": tuple(row["unmet"])})
+        for row in kept["rows"]
+    )
+    found = None if kept["twins"] is None else Twins(kept["twins"][0], tuple(kept["twins"][1]))
+    return Decided(problem, verdict, rows, tuple(kept["rests_on"]), tuple(kept["unmet"]), found)
 
 
 def conforming(loop: Loop, entry: ArgumentEntry) -> Tried:
