@@ -35,7 +35,10 @@ REFUTED = {
     "Pi_definite_at_the_gains[star:8]": "beta lambda_max = 0.3 * 8 > 1.6",
     "Pi_definite_at_the_gains[complete:8]": "beta lambda_max = 0.3 * 8 > 1.6",
     "tanh_in_the_place_of_sgn": "tanh is below one",
+    "lemma_2": "a constant",
+    "theorem_1": "opposite quaternions at rest",
 }
+OF_ARGUMENTS = ("step", "obligation")
 ILL_FORMED = {
     "kinematics[the whole quaternion]",
     "rate_of_V_i_closed[as printed]",
@@ -65,13 +68,14 @@ def rows(report: Report) -> dict[str, Row]:
 
 def test_the_verdicts_are_those_derived_by_hand(rows: dict[str, Row]) -> None:
     expected = dict.fromkeys(REFUTED, "refuted") | dict.fromkeys(ILL_FORMED, "ill-formed")
-    found = {id_: row.verdict for id_, row in rows.items() if row.verdict != "proved"}
+    claims = {id_: row for id_, row in rows.items() if row.form not in OF_ARGUMENTS}
+    found = {id_: row.verdict for id_, row in claims.items() if row.verdict != "proved"}
     assert found == expected
 
 
 def test_every_claim_is_settled_and_what_is_missing_is_named(report: Report) -> None:
     assert [row.id for row in report.rows if not row.settled] == []
-    assert report.missing == ("lemma 1", "lemma 2", "theorem 1")
+    assert report.missing == ()
 
 
 def test_what_needs_the_chart_is_conditional(rows: dict[str, Row]) -> None:
@@ -82,7 +86,7 @@ def test_what_needs_the_chart_is_conditional(rows: dict[str, Row]) -> None:
 
 def test_every_certificate_is_valid_on_its_own(report: Report) -> None:
     for row in report.rows:
-        if row.verdict in ("proved", "refuted"):
+        if row.verdict in ("proved", "refuted") and row.form not in OF_ARGUMENTS:
             assert row.certificate is not None, row.id
             assert check_text(json.dumps(row.certificate)).status == "valid", row.id
 

@@ -1,0 +1,60 @@
+"""The theorem of the formation study and its lemmas, against what was worked out by hand."""
+
+from __future__ import annotations
+
+import pytest
+
+from derivations.liang2016_formation import study
+from symctrl.rows import Row
+from symctrl.verify import verify
+
+THEOREMS = ("lemma_1", "lemma_2", "lemma_2_of_the_function", "theorem_1", "synchronisation")
+
+
+@pytest.fixture(scope="module")
+def rows() -> dict[str, Row]:
+    return {row.id: row for row in verify(study, THEOREMS).rows}
+
+
+def test_the_verdicts_are_those_worked_out_by_hand(rows: dict[str, Row]) -> None:
+    # Lemma 2 is false for a constant; theorem 1 for two craft at rest with opposite quaternions.
+    assert {id_: rows[id_].verdict for id_ in THEOREMS} == {
+        "lemma_1": "proved",
+        "lemma_2": "refuted",
+        "lemma_2_of_the_function": "proved",
+        "theorem_1": "refuted",
+        "synchronisation": "proved",
+    }
+
+
+def test_the_printed_argument_breaks_where_it_should(rows: dict[str, Row]) -> None:
+    # The printed M is not that of the rate of V, and with free gains neither it nor V is definite.
+    first = rows["theorem_1/with_definite_Pi/1"]
+    assert first.verdict == "refuted"
+    assert any(unmet.endswith("V falls") for unmet in first.unmet)
+    assert rows["theorem_1/with_definite_Pi/2"].blocked_by == first.id
+
+
+def test_what_the_corrected_theorem_assumes(rows: dict[str, Row]) -> None:
+    row = rows["synchronisation"]
+    texts = {given.text: given.about for given in row.given}
+    assert texts["K_o >= beta*Lambda"] == "parameter"
+    assert texts["no eigenvalue of the Laplacian exceeds Lambda"] == "parameter"
+    assert texts["q0.i stays apart from zero"] == "trajectory"
+    assert row.conditional
+    assert row.certificate is not None
+
+
+def test_every_assumption_of_the_corrected_theorem_is_needed(rows: dict[str, Row]) -> None:
+    twins = rows["synchronisation"].twins
+    assert twins is not None
+    assert twins.tried >= 6
+    assert twins.still_true == ()
+
+
+def test_the_counterexample_has_a_graph_and_opposite_scalar_parts(rows: dict[str, Row]) -> None:
+    witness = rows["theorem_1"].witness
+    assert witness is not None
+    assert witness["graph"] == [["1", "2"]]
+    assert witness["q0.1"] == "4/5"
+    assert witness["q0.2"] == "-4/5"
