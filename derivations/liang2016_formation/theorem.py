@@ -18,7 +18,7 @@ from derivations.liang2016_formation.symbols import (
     study,
     u_bar,
 )
-from symctrl import along, along_trajectory, apart, at, bounded, claim, equal, summable, tends
+from symctrl import along, along_trajectory, apart, at, bounded, claim, equal, initially, summable, tends
 from symctrl.vectors import absolute, power, stack
 
 i, j = fleet.node, fleet.neighbour
@@ -89,6 +89,20 @@ INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
 def omega_from_rate(i):
     """The angular velocity is Q times the rate of the vector part."""
     return equal(omega[i], Q(i) @ dq(i))
+
+
+@study.printed(
+    "after (3)", reading="the assumption q0 != 0 takes nothing away: q0 stays apart from zero by itself"
+)
+def chart_is_kept():
+    """From every initial attitude with q0 > 0 the scalar part stays apart from zero."""
+    return claim(given=[initially(q[i].scalar > 0)], then=[apart(q[i].scalar)])
+
+
+@study.argument(chart_is_kept)
+def by_its_rate(run):
+    run.keeps(q[i].scalar)
+    run.apart(q[i].scalar, least=0)
 
 
 def ones():

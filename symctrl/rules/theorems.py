@@ -23,6 +23,7 @@ from symctrl.rules.loop import Loop
 from symctrl.rules.planners import PLANNERS
 from symctrl.rules.seeker import Outcome, Seeker
 from symctrl.rules.twins import twins
+from symctrl.rules.vacuous import contradictory, refuse_assumed_conclusions
 from symctrl.theorem import ArgumentEntry, Theorem
 from symctrl.verdict import Condition, Verdict
 from symctrl.verdict import Outcome as Verdicts
@@ -94,6 +95,9 @@ def decide(
     """
     loop = Loop(study, theorem, id_, using)
     refuse_assumed_conclusions(loop, id_)
+    if contradictory(loop):
+        reason = "what is given contradicts itself: no state and no parameters meet it"
+        return Decided(loop.problem, Verdict(Verdicts.ILL_FORMED, reason), ())
     key = digest([loop.problem.sha256, files_of(study), current().variant, tool()])
     kept = store.get(key) if store is not None else None
     known = None if kept is None else _read(loop.problem, kept)
@@ -206,23 +210,6 @@ def said(loop: Loop, sentence: Sentence) -> str:
         return PHRASES["exists"]
     at = loop.statement.claim.then.index(sentence)
     return loop.theorem.then[at].text()
-
-
-def refuse_assumed_conclusions(loop: Loop, id_: str) -> None:
-    """Raises StudyError where a conclusion is assumed of the trajectory."""
-    from symctrl.kernel.argument import Argument
-    from symctrl.kernel.theorem import output_key
-    from symctrl.written import StudyError
-
-    at = Argument(loop.statement, (), Seeker(id_))
-    claim = loop.statement.claim
-    supposed = {(s.word, output_key(at, k)) for s in claim.suppose for k in s.of}
-    along = {(a.kind, at.output_traits(a.of[0]).key) for a in loop.statement.given if a.about == "trajectory"}
-    for sentence, fact in zip(claim.then, loop.theorem.then, strict=True):
-        keys = [output_key(at, k) for k in sentence.of]
-        kind = "zero" if sentence.zero or sentence.word == "tends" else "nonnegative"
-        if any((sentence.word, key) in supposed or (kind, key) in along for key in keys):
-            raise StudyError(f"{id_}: the conclusion that {fact.text()} is assumed of the trajectory")
 
 
 def rows_of(tried: Tried, id_: str, equation: str) -> Iterator[Row]:
