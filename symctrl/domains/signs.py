@@ -60,13 +60,20 @@ class Signs:
         return "positive" if strict else "nonnegative"
 
     def _variable(self, k: int, exponent: int) -> str | None:
-        known = self.generator.get(k)
+        known = self.generator.get(k) or self._of_logarithm(k)
         kind = self.field_.generators[k].kind
         if kind == "exp" or known == "positive":
             return "positive"
         if exponent % 2 == 0:
             return "positive" if known == "nonzero" else "nonnegative"
         return "nonnegative" if known == "nonnegative" or kind in NONNEGATIVE_KINDS else None
+
+    def _of_logarithm(self, k: int) -> str | None:
+        """log a has the sign of a - 1."""
+        g = self.field_.generators[k]
+        if g.kind != "function" or g.name != "log" or set(g.argument[0]) != {()}:
+            return None
+        return self.of(g.argument[0][()] - 1)
 
 
 def _ratio(p: Poly, q: Poly) -> int | None:

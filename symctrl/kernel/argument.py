@@ -4,10 +4,11 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Relies on the theorems of the rules (`kernel.rules`), one in each file. What is said is said of every solution
 on its maximal interval: absolutely continuous, and where the field jumps in the sense of Filippov, for every
-admissible signal (measurable, locally bounded). An assumption that speaks of states, and neither of a signal nor
-of the whole trajectory, holds at the beginning only: an equation is used after its rate is shown to be zero, an inequality
-after the rule `keeps`. The field is affine in its switches wherever a rate of |.| is taken: then every value
-of the field is that for one value of each switch, and |a| has the rate s a' for any s where a = 0.
+admissible signal (measurable, locally bounded). An assumption that speaks of states, and neither of a signal
+nor of the whole trajectory, holds at the beginning only: an equation is used after its rate is shown to be
+zero, an inequality after the rule `keeps`. The field is affine in its switches wherever a rate of |.| is
+taken: then every value of the field is that for one value of each switch, and |a| has the rate s a' for any s
+where a = 0.
 
 An obligation is composed here from the formula of its rule (`compose`); the certificate has only its proof.
 """
@@ -286,8 +287,9 @@ class Argument:
     def begin(self, cofactors: Mapping[str, str]) -> None:
         """Sorts the assumptions, and asks that the equations about states are kept.
 
-        An equation g = 0 is kept where g' = c g for a c that is continuous in the state, not only where g = 0:
-        then g is exp(int c) times its value at the beginning. cofactors: c by the quantity of the equation.
+        An equation g = 0 is kept where g' = c g for a c that is continuous in the state, not only where g =
+        0: then g is exp(int c) times its value at the beginning. cofactors: c by the quantity of the
+        equation.
         """
         for k, assumption in enumerate(self.statement.given):
             keys = [self.output_traits(ref).key for ref in assumption.of]

@@ -157,6 +157,8 @@ class Signs:
             return positive
         if function == "acos":
             return nonnegative
+        if function == "log":  # log a has the sign of a - 1
+            return self.of_value(self.field.add(g.args[0], self.field.constant(-1)))
         if function in ODD:
             return self.of_value(g.args[0])
         if g.base is None:

@@ -7,9 +7,9 @@ Theorem: a conclusion holds for every solution where a chain of rules gives it. 
 
 Proof fields: `listings`, `names`, `scalars`, `motion`, `laws`, more of what the statement has, for the
 argument alone; `quantities`, those of the listings, of one output each, that its lines speak of; `relations`,
-the proofs that equations are kept, and `cofactors` c with g' = c g by the names of these; `lines`, each {rule, of, proofs}. `of` has the quantities by role,
-`proofs` by role of the obligation {given, proof}: which of the available assumptions the proof uses, and the
-proof.
+the proofs that equations are kept, and `cofactors` c with g' = c g by the names of these; `lines`, each
+{rule, of, proofs}. `of` has the quantities by role, `proofs` by role of the obligation {given, proof}: which
+of the available assumptions the proof uses, and the proof.
 """
 
 from __future__ import annotations

@@ -39,18 +39,46 @@ Key = tuple[tuple[int, int], ...]
 
 
 def needed_conditions_each(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
-    """Field `term`: the proof for the term at a node, {given, proof}."""
-    fields(proof, ("kind", "term"), "proof")
+    """Field `term`: the proof for the terms at a node, {given, proof}, in the place of the sums over nodes."""
+    evaluation = {key: value for key, value in proof.items() if key != "term"}
+    fields(proof, (*SHARED, "term"), "proof", ("relations",))
+    test, values = opened(statement, evaluation, ("nonnegative",))
+    if len(values) != 1:
+        raise Invalid("a proof node by node is of one value")
+    _at_a_node(test, values[0])  # it is a linear combination of sums over nodes with constant coefficients
+    return test.replay.close() | _proved(at_a_node(statement), statement.given, proof["term"])
+
+
+def at_a_node(statement: Statement) -> Statement:
+    """The claim with the term at node i in the place of each sum over nodes. Raises Invalid for other names."""
     listing = statement.listings[statement.claim.listing]
-    if statement.claim.kind != "nonnegative" or len(listing.outputs) != 1 or len(listing.code) != 1:
-        raise Invalid("a proof node by node is of one sum over nodes")
-    meaning = statement.names.get(listing.code[0].name)
-    if meaning is None or meaning.kind != "total":
-        raise Invalid(f"{listing.code[0].name[:60]} is no sum over nodes")
-    term = single(statement.listings[meaning.of[0]], meaning.of[1])
+    code: list[Step] = []
+    place: list[int] = []
+
+    def put(steps: tuple[Step, ...]) -> list[int]:
+        registers: list[int] = []
+        for step in steps:
+            moved = Step(step.op, tuple(registers[a] for a in step.args), step.name, step.value)
+            if moved not in code:
+                code.append(moved)
+            registers.append(code.index(moved))
+        return registers
+
+    for step in listing.code:
+        meaning = statement.names.get(step.name) if step.op == "INPUT" else None
+        if meaning is not None and meaning.kind == "total":
+            term = single(statement.listings[meaning.of[0]], meaning.of[1])
+            place.append(put(term.code)[term.outputs[0]])
+        elif step.op == "INPUT" and statement.scalars.get(step.name) != "parameter":
+            raise Invalid(f"{step.name[:60]} is neither a sum over nodes nor a constant")
+        else:
+            moved = Step(step.op, tuple(place[a] for a in step.args), step.name, step.value)
+            if moved not in code:
+                code.append(moved)
+            place.append(code.index(moved))
+    made = Listing(tuple(code), tuple(place[r] for r in listing.outputs), "")
     claim = Claim("nonnegative", MODE, (1, 1))
-    inner = replace(statement, listings={**statement.listings, MODE: term}, claim=claim)
-    return _proved(inner, statement.given, proof["term"])
+    return replace(statement, listings={**statement.listings, MODE: made}, claim=claim)
 
 
 def needed_conditions_spectral(statement: Statement, proof: dict[str, Any]) -> set[Condition]:

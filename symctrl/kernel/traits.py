@@ -38,9 +38,9 @@ class Traits:
     """Of one value: `key` is the same for equal structures. level: how smooth it is away from its jumps.
     jumps: keys of arguments at whose zeros it jumps. zeros: keys of arguments at whose zeros it vanishes.
     degree: in switches, 2 for more than affine. reads: free symbols. bounded: for certain.
-    edges: `kind key` of what it divides by (nonzero), takes roots (nonnegative) and logarithms (positive) of, and
-    of the arguments of arcsine and arccosine (unit: at most 1 in absolute value).
-    number: its value, if it is a literal.
+    edges: `kind key` of what it divides by (nonzero), takes roots (nonnegative) and logarithms (positive) of,
+    and of the arguments of arcsine and arccosine (unit: at most 1 in absolute value). number: its value, if
+    it is a literal.
     """
 
     key: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
 from symctrl.certify import certificate
@@ -19,6 +20,7 @@ from symctrl.kernel.values import Condition, Sentence
 from symctrl.rules.algebra import rate_over
 from symctrl.rules.loop import Loop
 from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.text import text
 from symctrl.theorem import Line
 
 if TYPE_CHECKING:
@@ -177,7 +179,17 @@ class Chain:
                 broken = not planners[line.rule](self, line.what)
             except (Invalid, Declined) as error:
                 broken = not self.fail(line.rule, str(error))
-            yield Done(line, tuple(self.outcomes))
+            yield Done(line, tuple(map(self.worded, self.outcomes)))
+
+    def worded(self, outcome: Outcome) -> Outcome:
+        """The outcome with expressions in the place of the names of quantities."""
+
+        def shown(match: re.Match[str]) -> str:
+            expr = self.loop.quantities.get(match.group())
+            return match.group() if expr is None else text(expr)
+
+        role, reason = (re.sub(r"\bx\d+\b", shown, said) for said in (outcome.role, outcome.reason))
+        return replace(outcome, role=role, reason=reason)
 
     def open_conclusions(self) -> list[Sentence]:
         """The conclusions that no line has given yet."""

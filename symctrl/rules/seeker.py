@@ -156,7 +156,7 @@ class Seeker:
     ) -> tuple[tuple[int, ...], Any]:
         """A proof node by node, or mode by mode without the equations about states."""
         statement = at.composed(obligation, [usable[k] for k in numbers])
-        proof = totals.each(statement, self.problem)
+        proof = totals.each(statement, self.problem(statement, statement.given), self.problem)
         if proof is not None:
             return numbers, proof
         plain = tuple(k for k, a in enumerate(usable) if a.kind != "zero" and not at.reads_states(a))

@@ -11,10 +11,10 @@ from symctrl.decide import bound
 from symctrl.decide.identity import _at_node, _of_totals
 from symctrl.decide.session import Session, exactly
 from symctrl.kernel import values as kernel
-from symctrl.kernel.argument import OBLIGATION, single
+from symctrl.kernel.argument import OBLIGATION
 from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.sums import opened
-from symctrl.kernel.total import MODE, _at_a_node, _in_modes, _statement
+from symctrl.kernel.total import _at_a_node, _in_modes, _statement, at_a_node
 from symctrl.problem import Problem
 
 Convert = Callable[[kernel.Statement, Sequence[kernel.Assumption]], Problem]
@@ -24,20 +24,15 @@ def speaks_of_totals(problem: Problem) -> bool:
     return any(meaning.is_ == "total" for meaning in problem.names.values())
 
 
-def each(statement: kernel.Statement, convert: Convert) -> dict[str, Any] | None:
-    """The proof that a claim about one total holds because its term is nonnegative at every node."""
-    code = statement.listings[OBLIGATION].code
-    meaning = statement.names.get(code[0].name) if len(code) == 1 else None
-    if meaning is None or meaning.kind != "total":
+def each(statement: kernel.Statement, problem: Problem, convert: Convert) -> dict[str, Any] | None:
+    """The proof that a combination of sums over nodes holds because that of their terms does at every node."""
+    try:
+        inner = at_a_node(statement)
+    except Invalid:
         return None
-    term = single(statement.listings[meaning.of[0]], meaning.of[1])
-    inner = replace(
-        statement,
-        listings={**statement.listings, MODE: term},
-        claim=kernel.Claim("nonnegative", MODE, (1, 1)),
-    )
-    entry = _inner(inner, convert)
-    return None if entry is None else {"kind": "each", "term": entry}
+    draft = exactly(problem, _draft)
+    entry = None if draft is None else _inner(inner, convert)
+    return None if entry is None or draft is None else dict(draft) | {"kind": "each", "term": entry}
 
 
 def spectral(statement: kernel.Statement, problem: Problem, convert: Convert) -> dict[str, Any] | None:

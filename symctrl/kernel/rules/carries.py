@@ -9,7 +9,8 @@ rate has a finite integral. tends. e tends to zero where d e = c_1 z_1 + .. with
 bounded c; where a e^2 <= V and V tends to zero. For a fleet, a sum over all nodes (and neighbours) of squares
 takes the place of the square, and is not less than it; and the sum over all nodes of what tends to zero at
 each node tends to zero. summable. e is summable where a |e| <= W_1 + .. with summable W. exponentially. |e|
-decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2 >= k > 0. sets. Where a set is reached, reached and kept, or holds for all large times, so does every set that contains it.
+decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2 >= k > 0. sets. Where
+a set is reached, reached and kept, or holds for all large times, so does every set that contains it.
 
 Proofs. Each is immediate.
 """

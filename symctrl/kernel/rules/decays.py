@@ -4,7 +4,7 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Theorem. Let V >= 0 be locally Lipschitz with V' <= -a V - b rho^(1+gamma) + c + w for all states of the
 domain, all signals and all values of the switches, with constants a > 0 or left out, b > 0 or left out, not
-both left out, c >= 0, rho >= 0 with rho^2 = V, and 0 < gamma < 1. Then V is bounded (where w has a finite
+both left out, c >= 0, rho >= 0 with rho^2 = V, and 0 <= gamma < 1. Then V is bounded (where w has a finite
 integral, tends to zero or is bounded, for a > 0). Without b, c, w: V(t) <= V(0) exp(-a t). With b, without c,
 w: V is zero from the time T on, with T = 2 rho(0)^(1-gamma) / (b (1-gamma)) at most. With c, without w: for
 every constant r with a r + b r^((1+gamma)/2) > c the set V <= r is reached and kept. If a > 0, without c: V
@@ -21,8 +21,9 @@ Sources: comparison lemma, Khalil, Nonlinear Systems; Bhat and Bernstein, SIAM J
 
 from __future__ import annotations
 
-from symctrl.kernel.argument import Argument
+from symctrl.kernel.argument import OBLIGATION, Argument, Beside
 from symctrl.kernel.rules.roles import Roles
+from symctrl.kernel.values import Assumption
 
 
 def decays(at: Argument, of: Roles) -> None:
@@ -63,7 +64,7 @@ def _power(at: Argument, of: Roles, V: str, b: str) -> dict[str, str]:
     gamma, rho = of.one("gamma"), of.one("rho")
     _positive_constant(at, "the rate of the power", b)
     at.require_constant("gamma is constant", gamma)
-    at.prove("gamma is positive", "positive", "g", g=gamma)
+    at.prove("gamma is not negative", "nonnegative", "g", g=gamma)
     at.prove("gamma is below one", "positive", "1 g -", g=gamma)
     at.prove("rho is not negative", "nonnegative", "rho", rho=rho)
     at.prove("V is the square of rho", "equal", ["rho rho *", "V"], rho=rho, V=V)
@@ -103,13 +104,10 @@ def _to_zero(at: Argument, of: Roles, V: str, roles: dict[str, str]) -> None:
     if "b" in roles and exists:
         if time is not None:
             late = "T b 1 g - * * 2 rho 1 g - ^ * -"
-            at.prove(
-                "the time is late enough",
-                "nonnegative",
-                late,
-                T=time,
-                **{k: roles[k] for k in ("b", "g", "rho")},
-            )
+            # Where rho = 0 at the beginning, V is zero from the beginning, whatever T is.
+            away = Assumption("positive", ((roles["rho"], 0),), text="rho > 0", about=OBLIGATION)
+            given = {name: roles[name] for name in ("b", "g", "rho")}
+            at.prove("the time is late enough", "nonnegative", late, Beside((away,)), T=time, **given)
         for word in ("settles", "enters", "eventually"):
             at.learn_set(word, True, [V], time)
 

@@ -47,5 +47,7 @@ def exists(at: Argument, of: Roles) -> None:
             proved, formula = PROVED_AS[kind]
             at.prove(f"{quantity} is {kind}", proved, formula, Beside(closed=True), q=quantity)
             at.learn_edge(kind, key)
-    at.require("no edge is named in vain", named == set(shown), "a quantity is named that the field does not need")
+    at.require(
+        "no edge is named in vain", named == set(shown), "a quantity is named that the field does not need"
+    )
     at.facts.add(("exists", ""))
