@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from symctrl.decide.coefficients import coefficient_of, generator_of
 from symctrl.decide.session import Session, exactly
 from symctrl.domains.field import Exact, Poly
 from symctrl.graph import Instruction, Tape
 from symctrl.kernel.argument import OBLIGATION
-from symctrl.kernel.compose import rate_listing
+from symctrl.kernel.compose import composed, rate_listing
 from symctrl.kernel.values import Claim, Listing
 from symctrl.problem import star
+from symctrl.rules.seeker import NO_MEANING
 
 if TYPE_CHECKING:
     from symctrl.rules.chain import Chain
@@ -28,9 +30,6 @@ class Algebra:
     session: Session
     values: list[Exact]
     scalars: Any
-
-    def generator(self, name: str) -> int | None:
-        return self.session.domain.field.index.get(name)
 
     def occurring(self, value: Exact) -> set[int]:
         """The generators of the value, and those that they are made of."""
@@ -55,19 +54,8 @@ class Algebra:
     def coefficient(self, value: Exact, powers: dict[int, int]) -> Exact:
         """The coefficient of a product of generators, which must not be in a denominator."""
         field = self.session.domain.field
-        found: Exact = {}
-        for key, p in value.items():
-            kept = {}
-            for exponents, c in p.terms():
-                if all(exponents[field.size - 1 - g] == powers.get(g, 0) for g in powers):
-                    lowered = list(exponents)
-                    for g in powers:
-                        lowered[field.size - 1 - g] = 0
-                    kept[tuple(lowered)] = c
-            poly = field.context.from_dict(kept)
-            if not poly.is_zero():
-                found[key] = poly
-        return found
+        found = {key: coefficient_of(field, p, powers) for key, p in value.items()}
+        return {key: p for key, p in found.items() if not p.is_zero()}
 
     def tape(self, value: Exact) -> Tape | None:
         """The value as instructions; None where it has generators that have none here."""
@@ -81,14 +69,10 @@ def algebra(
     """`work` on the exact values of quantities, by themselves or reduced by the equations that are assumed;
     None where these have no exact meaning.
     """
-    from symctrl.rules.seeker import NO_MEANING
-
     listings = [chain.at.statement.listings[name] for name in quantities]
     code, outputs = _together(listings)
     whole = chain.at.statement
     claim = Claim("conforms", OBLIGATION, (len(outputs), 1))
-    from dataclasses import replace
-
     stated = replace(
         whole, listings={**whole.listings, OBLIGATION: Listing(code, outputs, "")}, given=(), claim=claim
     )
@@ -98,6 +82,11 @@ def algebra(
         return exactly(problem, lambda s: work(Algebra(s, s.claim(), problem.scalars)))
     except NO_MEANING:
         return None
+
+
+def symbol_of(found: Algebra, value: Exact) -> int | None:
+    """The generator that a value is; None where it is anything else."""
+    return generator_of(found.session.domain.field, value)
 
 
 def rate_over(chain: Chain, listing: str) -> Tape | None:
@@ -116,8 +105,6 @@ def _exact_quotient(found: Algebra) -> Tape | None:
 
 
 def _together(listings: Sequence[Listing]) -> tuple[Any, Any]:
-    from symctrl.kernel.compose import composed
-
     named = {f"q{k}": listing for k, listing in enumerate(listings)}
     made = composed(named, list(named), {name: name for name in named})
     return made.code, made.outputs

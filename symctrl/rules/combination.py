@@ -18,6 +18,7 @@ from symctrl.domains.field import Exact, Poly
 from symctrl.domains.matrices import determinant_of
 from symctrl.graph import Tape
 from symctrl.rules.algebra import Algebra, algebra
+from symctrl.rules.algebra import symbol_of as symbol
 from symctrl.rules.chain import Chain
 
 MAX_UNKNOWNS = 4
@@ -54,7 +55,7 @@ def combinations(chain: Chain, names: Sequence[str]) -> None:
             table["divisor"] = chain.q(way.divisor)
         for factor in table["times"]:
             if not chain.at.has("bounded", factor):
-                from symctrl.rules.carries import ensure
+                from symctrl.rules.ways import ensure
 
                 ensure(chain, "bounded", factor)
         chain.attempt("carries", table)
@@ -95,8 +96,6 @@ def _directly(found: Algebra, value: Exact, known: dict[str, Exact], small: dict
 
 
 def _symbol(found: Algebra, value: Exact) -> int | None:
-    from symctrl.rules.carries import _symbol as symbol
-
     return symbol(found, value)
 
 

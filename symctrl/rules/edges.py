@@ -8,12 +8,11 @@ from symctrl.graph import Tape
 from symctrl.kernel.values import Sentence
 from symctrl.rules.chain import Chain
 from symctrl.rules.tapes import single
+from symctrl.rules.ways import ensure
 
 
 def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
     """Quantities for those arguments (`kind key`) that are not known to stay inside, nor can be carried over."""
-    from symctrl.rules.carries import ensure
-
     open_ = {edge.split(" ", 1)[1] for edge in wanted if not chain.at.edge_is_known(*edge.split(" ", 1))}
     found: list[str] = []
     for tape in arguments(chain):

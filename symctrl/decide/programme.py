@@ -1,0 +1,228 @@
+"""A sign by a linear programme: candidates are assumptions, their products and monomials, times squares.
+
+The programme is solved in floating point and chooses among the candidates; their weights are then solved for
+exactly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from itertools import combinations, combinations_with_replacement
+from typing import Any
+
+import flint
+import numpy as np
+
+from symctrl.decide.factors import Term
+from symctrl.decide.forms import Form, forms_in
+from symctrl.decide.session import Session
+from symctrl.domains.field import Poly
+
+MAX_CANDIDATES = 1500
+MAX_MONOMIALS = 8000
+MAX_PRODUCTS = 25
+MAX_PAIRED = 8  # symbols whose sums and differences are tried
+MAX_TRIPLED = 8  # assumptions whose products of three are tried
+TINY = 1e-9
+Monomial = tuple[int, ...]
+Product = tuple[Poly, tuple[Any, ...]]  # its value, and its factors as in a term
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A nonnegative polynomial: the product of assumptions (by index) or known polynomials, times squares."""
+
+    value: Poly
+    given: tuple[Any, ...]
+    squares: tuple[Poly, ...]
+
+
+def by_programme(
+    session: Session, p: Poly, strict: bool, candidates: Sequence[Candidate]
+) -> list[Term] | None:
+    """The terms of p as a sum of positive multiples of candidates; None where none is found."""
+    table = _Table()
+    columns = [table.column(candidate.value) for candidate in candidates]
+    target = table.column(p)
+    if not columns or len(table.rows) > MAX_MONOMIALS:
+        return None
+    sure = [_is_sure(session, candidate) for candidate in candidates]
+    chosen = _chosen(table, columns, target, [-1.0 if strict and s else 1e-3 for s in sure])
+    weights = None if chosen is None else _exact_weights([columns[n] for n in chosen], target)
+    if chosen is None or weights is None or any(w < 0 for w in weights):
+        return None
+    used = [(n, w) for n, w in zip(chosen, weights, strict=True) if w]
+    if strict and not any(sure[n] for n, _ in used):
+        return None
+    json = session.domain.field.json
+    return [
+        [str(w), list(candidates[n].given), [json(square) for square in candidates[n].squares]]
+        for n, w in used
+    ]
+
+
+@dataclass
+class _Table:
+    """Monomials by row; a column has the coefficients of a polynomial."""
+
+    rows: dict[Monomial, int] = field(default_factory=dict)
+
+    def column(self, p: Poly) -> dict[int, Any]:
+        """The coefficients by row, with new rows as they are needed."""
+        return {self.rows.setdefault(tuple(map(int, e)), len(self.rows)): c for e, c in p.terms()}
+
+    def floats(self, columns: Sequence[dict[int, Any]]) -> Any:
+        """The columns side by side in floating point."""
+        matrix = np.zeros((len(self.rows), len(columns)))
+        for n, column in enumerate(columns):
+            for m, c in column.items():
+                matrix[m, n] = float(Fraction(int(c.p), int(c.q)))
+        return matrix
+
+
+def _chosen(
+    table: _Table, columns: Sequence[dict[int, Any]], target: dict[int, Any], cost: Sequence[float]
+) -> list[int] | None:
+    """The columns that add up to the target about, at the least cost; None where none do."""
+    from scipy.optimize import linprog
+
+    matrix, right = table.floats(columns), table.floats([target])[:, 0]
+    widths = np.maximum(np.abs(matrix).max(axis=0), 1e-300)
+    height = max(float(np.abs(right).max()), 1e-300)
+    answer = linprog(
+        cost, A_eq=matrix / widths, b_eq=right / height, bounds=[(0, 1e6)] * len(columns), method="highs"
+    )
+    return [n for n in range(len(columns)) if answer.x[n] > TINY] if answer.status == 0 else None
+
+
+def _exact_weights(columns: Sequence[dict[int, Any]], target: dict[int, Any]) -> list[Fraction] | None:
+    """The exact solution of sum w_n column_n = target, if there is one."""
+    if not columns:
+        return [] if not target else None
+    rows = sorted({m for column in columns for m in column} | set(target))
+    system = flint.fmpq_mat(
+        len(rows), len(columns) + 1, [c.get(m, flint.fmpq(0)) for m in rows for c in (*columns, target)]
+    )
+    reduced, rank = system.rref()
+    weights = [Fraction(0)] * len(columns)
+    for r in range(rank):
+        pivot = next(c for c in range(len(columns) + 1) if reduced[r, c] != 0)
+        if pivot == len(columns):
+            return None
+        last = reduced[r, len(columns)]
+        weights[pivot] = Fraction(int(last.p), int(last.q))
+    return weights
+
+
+def _is_sure(session: Session, candidate: Candidate) -> bool:
+    """Is it certainly positive: a product of assumptions that something is positive?"""
+    given = session.problem.given
+    return not candidate.squares and all(
+        isinstance(g, int) and given[g].kind == "positive" for g in candidate.given
+    )
+
+
+# Candidates
+
+
+def candidates(
+    session: Session, p: Poly, squares: Sequence[Poly], forms: Sequence[Form], wide: bool
+) -> list[Candidate]:
+    """The author's forms and squares with every product of assumptions first, then monomials and their pairs.
+
+    wide: all products by themselves before any square, and squares with a constant in them.
+    """
+    products = _products(session)
+    low = p.total_degree() + 2
+    found = [
+        Candidate(session.domain.field.normal(product * value), (*given, form), ())
+        for form, value in [*forms, *(forms_in(session, p) if wide else ())]
+        for product, given in products
+    ]
+    if wide:
+        alone = [(q, given) for q, given in products if q.total_degree() <= low]
+        found += [Candidate(session.domain.field.normal(q), given, ()) for q, given in alone]
+    for candidate in _times_squares(session, p, products, squares, wide):
+        found.append(candidate)
+        if len(found) >= MAX_CANDIDATES:
+            break
+    return found
+
+
+def _times_squares(
+    session: Session, p: Poly, products: Sequence[Product], advised: Sequence[Poly], wide: bool
+) -> Iterator[Candidate]:
+    """Each product times each square: those that are advised, and those of no higher degree than p's."""
+    one, low = session.domain.field.polynomial(1), p.total_degree() + 2
+    own = _squares(session, p, wide)
+    for product, given in products:
+        fitting = [s for s in own if product.total_degree() + 2 * s.total_degree() <= low]
+        for square in [*advised, *fitting]:
+            value = session.domain.field.normal(product * square * square)
+            yield Candidate(value, given, () if square == one else (square,))
+
+
+def _products(session: Session) -> list[Product]:
+    """1, what is known not to be negative, and products of two and, where it is little, of three."""
+    facts: list[Product] = [(q, (k,)) for k, q in _facts(session)]
+    pairs = combinations_with_replacement(facts, 2)
+    triples = combinations(facts, 3) if len(facts) <= MAX_TRIPLED else ()
+    return [
+        (session.domain.field.polynomial(1), ()),
+        *facts,
+        *((a * b, (*x, *y)) for (a, x), (b, y) in pairs),
+        *((a * b * c, (*x, *y, *z)) for (a, x), (b, y), (c, z) in triples),
+    ]
+
+
+def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
+    """The nonnegative assumptions at node i, by index; then opaque generators that are not negative, by
+    POLY.
+    """
+    field = session.domain.field
+    for k, assumption in enumerate(session.problem.given):
+        if assumption.kind in ("positive", "nonnegative"):
+            yield k, session.carrier(session.at(assumption.of[0], {"i": "i"}))
+    for k, g in enumerate(field.generators):
+        if g.kind in ("root", "abs", "exp", "power"):
+            yield field.json(field.variable(k)), field.variable(k)
+        for beside in _beside(session, k):
+            yield field.json(beside), beside
+
+
+def _beside(session: Session, k: int) -> list[Poly]:
+    """|p| - p and |p| + p for an absolute value, 1 - s and 1 + s for a sign: not negative."""
+    field = session.domain.field
+    g = field.generators[k]
+    if g.kind not in ("abs", "sign"):
+        return []
+    inner = g.argument if g.kind == "abs" else field.variable(k)
+    bound = field.variable(k) if g.kind == "abs" else field.polynomial(1)
+    return [bound - inner, bound + inner]
+
+
+def _squares(session: Session, p: Poly, wide: bool) -> list[Poly]:
+    """Monomials whose squares may occur, their sums and differences in pairs; if wide, without the symbols of
+    known sign where there are many, and in pairs with 1.
+    """
+    one = session.domain.field.polynomial(1)
+    variables = _bases(session, p, wide)
+    ends = [one, *variables] if wide else variables
+    few = len(variables) <= MAX_PAIRED
+    pairs = [a + s * b for a, b in combinations(ends, 2) for s in (1, -1)] if few else []
+    products = [a * b for a, b in combinations_with_replacement(variables, 2)] if p.total_degree() > 3 else []
+    minors = [a - b for a, b in combinations(products, 2)] if len(products) <= MAX_PRODUCTS else []
+    return [one, *variables, *pairs, *products, *minors]
+
+
+def _bases(session: Session, p: Poly, wide: bool) -> list[Poly]:
+    """The symbols of p and of the relations that speak of these, and all opaque generators."""
+    field = session.domain.field
+    opaque = {k for k, g in enumerate(field.generators) if g.kind not in ("free", "sum")}
+    near = [field.occurring(r) for r in field.relations if field.occurring(r) & field.occurring(p)]
+    occurring = field.occurring(p).union(opaque, *near)
+    if wide and len(occurring) > MAX_PAIRED:
+        occurring -= {k for k, sign in session.domain.signs.generator.items() if sign == "positive"}
+    return [field.variable(k) for k in sorted(occurring)]
