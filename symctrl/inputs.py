@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -35,9 +35,9 @@ def inputs_digest(study: Study, wanted: Collection[str]) -> str:
 
 def files_of(study: Study) -> list[str]:
     """The digests of the files in which the study's functions are written."""
-    functions = [
-        entry.function for entry in (*study.entries.values(), *study.arguments, *study.counterexamples)
-    ]
+    functions: list[Callable[..., Any]] = [entry.function for entry in study.entries.values()]
+    functions += [entry.function for entry in study.arguments]
+    functions += [entry.function for entry in study.counterexamples]
     written = {Path(function.__code__.co_filename) for function in functions}
     return sorted(sha256(path.read_bytes()).hexdigest() for path in written if path.is_file())
 

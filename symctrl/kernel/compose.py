@@ -15,8 +15,17 @@ from fractions import Fraction
 from symctrl.kernel.values import Listing, Meaning, Step
 
 MAX_RATES = 6
-OPERATIONS = {"+": "ADD", "-": "SUB", "*": "MUL", "/": "DIV", "^": "POW", "neg": "NEG", "abs": "FABS"}
-UNARY = frozenset(("neg", "abs"))
+OPERATIONS = {
+    "+": "ADD",
+    "-": "SUB",
+    "*": "MUL",
+    "/": "DIV",
+    "^": "POW",
+    "neg": "NEG",
+    "abs": "FABS",
+    "log": "LOG",
+}
+UNARY = frozenset(("neg", "abs", "log"))
 
 
 def composed(listings: Mapping[str, Listing], formulas: Sequence[str], roles: Mapping[str, str]) -> Listing:

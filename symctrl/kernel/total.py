@@ -2,7 +2,8 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Theorem (`each`). A sum over nodes of terms that are nonnegative at every node is nonnegative.
+Theorem (`each`). A sum over nodes of terms that are nonnegative at every node is nonnegative; so is a sum
+over nodes and neighbours of terms that are nonnegative for every edge.
 
 Theorem (`spectral`). Let L be the Laplacian of an undirected graph with no eigenvalue above b, and P a
 quadratic form with constant coefficients. If P(x, m x) >= 0 for all x and all m with 0 <= m <= b, then the
@@ -27,7 +28,7 @@ from typing import Any
 
 from symctrl.kernel import combination
 from symctrl.kernel.argument import single
-from symctrl.kernel.certificate import Declined, Invalid, fields, natural, typed
+from symctrl.kernel.certificate import Declined, Invalid, fields, natural, split_name, typed
 from symctrl.kernel.conditions import SIGNS
 from symctrl.kernel.polynomial import Poly, powers
 from symctrl.kernel.sums import SumIdentity, opened
@@ -39,7 +40,7 @@ Key = tuple[tuple[int, int], ...]
 
 
 def needed_conditions_each(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
-    """Field `term`: the proof for the terms at a node, {given, proof}, in the place of the sums over nodes."""
+    """Field `term`: the proof for the terms at a node, {given, proof}, in place of the sums over nodes."""
     evaluation = {key: value for key, value in proof.items() if key != "term"}
     fields(proof, (*SHARED, "term"), "proof", ("relations",))
     test, values = opened(statement, evaluation, ("nonnegative",))
@@ -50,35 +51,63 @@ def needed_conditions_each(statement: Statement, proof: dict[str, Any]) -> set[C
 
 
 def at_a_node(statement: Statement) -> Statement:
-    """The claim with the term at node i in the place of each sum over nodes. Raises Invalid for other names."""
+    """The claim with the term at node i in the place of each sum over nodes; where all terms are sums over
+    the neighbours, with that of an edge. Raises Invalid for other names.
+    """
     listing = statement.listings[statement.claim.listing]
-    code: list[Step] = []
-    place: list[int] = []
-
-    def put(steps: tuple[Step, ...]) -> list[int]:
-        registers: list[int] = []
-        for step in steps:
-            moved = Step(step.op, tuple(registers[a] for a in step.args), step.name, step.value)
-            if moved not in code:
-                code.append(moved)
-            registers.append(code.index(moved))
-        return registers
-
+    terms = {step.name: _term(statement, step.name) for step in listing.code if step.op == "INPUT"}
+    edges = {name: _summand(statement, term) for name, term in terms.items() if term is not None}
+    if edges and None not in edges.values():
+        terms = {**terms, **edges}
+    maker = _Inlined()
     for step in listing.code:
-        meaning = statement.names.get(step.name) if step.op == "INPUT" else None
-        if meaning is not None and meaning.kind == "total":
-            term = single(statement.listings[meaning.of[0]], meaning.of[1])
-            place.append(put(term.code)[term.outputs[0]])
-        elif step.op == "INPUT" and statement.scalars.get(step.name) != "parameter":
+        term = terms.get(step.name) if step.op == "INPUT" else None
+        if term is None and step.op == "INPUT" and statement.scalars.get(step.name) != "parameter":
             raise Invalid(f"{step.name[:60]} is neither a sum over nodes nor a constant")
-        else:
-            moved = Step(step.op, tuple(place[a] for a in step.args), step.name, step.value)
-            if moved not in code:
-                code.append(moved)
-            place.append(code.index(moved))
-    made = Listing(tuple(code), tuple(place[r] for r in listing.outputs), "")
+        maker.put(step, term)
+    made = Listing(tuple(maker.code), tuple(maker.place[r] for r in listing.outputs), "")
     claim = Claim("nonnegative", MODE, (1, 1))
     return replace(statement, listings={**statement.listings, MODE: made}, claim=claim)
+
+
+def _term(statement: Statement, name: str) -> Listing | None:
+    """The term at node i of a sum over all nodes."""
+    meaning = statement.names.get(name)
+    if meaning is None or meaning.kind != "total":
+        return None
+    return single(statement.listings[meaning.of[0]], meaning.of[1])
+
+
+def _summand(statement: Statement, term: Listing) -> Listing | None:
+    """The term of an edge, where the term of a node is a sum over its neighbours and nothing else."""
+    key = split_name(term.code[0].name)[0] if len(term.code) == 1 and term.code[0].op == "INPUT" else ""
+    meaning = statement.names.get(key)
+    if meaning is None or meaning.kind != "sum":
+        return None
+    return single(statement.listings[meaning.of[0]], meaning.of[1])
+
+
+class _Inlined:
+    """Instructions in which an input may be replaced by a listing of one output."""
+
+    def __init__(self) -> None:
+        self.code: list[Step] = []
+        self.place: list[int] = []
+
+    def put(self, step: Step, instead: Listing | None) -> None:
+        if instead is None:
+            self.place.append(self._emit(step, self.place))
+            return
+        registers: list[int] = []
+        for inner in instead.code:
+            registers.append(self._emit(inner, registers))
+        self.place.append(registers[instead.outputs[0]])
+
+    def _emit(self, step: Step, registers: list[int]) -> int:
+        moved = Step(step.op, tuple(registers[a] for a in step.args), step.name, step.value)
+        if moved not in self.code:
+            self.code.append(moved)
+        return self.code.index(moved)
 
 
 def needed_conditions_spectral(statement: Statement, proof: dict[str, Any]) -> set[Condition]:

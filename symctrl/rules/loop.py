@@ -250,7 +250,7 @@ class Loop:
 
 @dataclass(frozen=True)
 class Changed:
-    """A twin of a theorem: without one assumption (dropped), or one supposition (forgotten), or with other laws.
+    """A twin of a theorem: without an assumption (dropped) or a supposition (forgotten), or with other laws.
 
     along: with the study's assumptions about the trajectory.
     """

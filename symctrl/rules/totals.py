@@ -25,7 +25,7 @@ def speaks_of_totals(problem: Problem) -> bool:
 
 
 def each(statement: kernel.Statement, problem: Problem, convert: Convert) -> dict[str, Any] | None:
-    """The proof that a combination of sums over nodes holds because that of their terms does at every node."""
+    """The proof that a combination of sums over nodes holds, for that of their terms does everywhere."""
     try:
         inner = at_a_node(statement)
     except Invalid:

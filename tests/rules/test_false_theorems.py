@@ -147,7 +147,7 @@ def finite_time_with_a_high_power():
     return theorem(study, [settles(equal(x, 0))], lines)
 
 
-@false("gamma is not negative", "decays: gamma is positive")
+@false("gamma is not negative", "decays: gamma is not negative")
 def finite_time_with_a_negative_exponent():
     study, x = states("x")
     study.motion(x, -x)

@@ -3,14 +3,20 @@
 Soundness-critical. Last reviewed 2026-11-24.
 
 Theorems, for every solution, with constants a > 0, d != 0 and k:
-bounded. e is bounded where it is composed of what is bounded (`traits`); where a e^2 <= k + V_1 + .. with
-bounded V; where e'P e <= k + V_1 + .. with a constant positive definite P (every component is); where its
-rate has a finite integral. tends. e tends to zero where d e = c_1 z_1 + .. with z that tend to zero and
-bounded c; where a e^2 <= V and V tends to zero. For a fleet, a sum over all nodes (and neighbours) of squares
-takes the place of the square, and is not less than it; and the sum over all nodes of what tends to zero at
-each node tends to zero. summable. e is summable where a |e| <= W_1 + .. with summable W. exponentially. |e|
-decays at half the rate of V where a e^2 <= V. apart. e stays apart from zero where e^2 >= k > 0. sets. Where
-a set is reached, reached and kept, or holds for all large times, so does every set that contains it.
+
+- bounded: where it is composed of what is bounded (`traits`), or is c_1 z_1 + .. with bounded z and c; where
+  a |e| or a e^2 is at most k + V_1 + .. with bounded V; where e'P e is, with a constant positive definite P
+  (every component of e); where e^2 <= g and a log(1 + g) <= V; where its rate has a finite integral.
+- tends to zero: where d e = c_1 z_1 + .. with z that tend to zero and bounded c (d constant, or apart from
+  zero); where a e^2 <= V and V tends to zero.
+- For a fleet, a sum over all nodes (and neighbours) of squares may take the place of the square, and is not
+  less than it; and the sum over all nodes of what tends to zero at each node tends to zero.
+- summable: where a |e| <= W_1 + .. with summable W.
+- exponentially: |e| decays at half the rate of V where a e^2 <= V.
+- apart from zero: where e is a constant that is not zero; where e^2 >= k > 0, or e = c z or e^2 >= z^2 for a
+  constant c != 0 and z that stays apart from zero.
+- sets: where a set is reached, reached and kept, or holds for all large times, so does every set that
+  contains it.
 
 Proofs. Each is immediate.
 """
@@ -130,16 +136,35 @@ def _sum_of_small(at: Argument, of: Roles) -> None:
     at.learn("tends", total)
 
 
+def _bounded_by_parts(at: Argument, of: Roles) -> None:
+    _below_parts(at, of, "bounded")
+
+
 def _summable(at: Argument, of: Roles) -> None:
+    _below_parts(at, of, "summable")
+
+
+def _below_parts(at: Argument, of: Roles, word: str) -> None:
+    """a |e| <= W_1 + .."""
     e, parts, least = of.one("e"), of.many("by"), of.maybe("least")
-    formula, roles = _sum(at, "summable", parts, None)
+    formula, roles = _sum(at, word, parts, None)
     bound = "e"
     if least is not None:
         _positive(at, least)
         bound, roles = "e a *", roles | {"a": least}
     at.prove("the parts bound e", "nonnegative", f"{formula} {bound} -", e=e, **roles)
     at.prove("the parts bound minus e", "nonnegative", f"{formula} {bound} +", e=e, **roles)
-    at.learn("summable", e)
+    at.learn(word, e)
+
+
+def _logarithm(at: Argument, of: Roles) -> None:
+    """e^2 <= g and a log(1 + g) <= V."""
+    e, g, V, least = of.one("e"), of.one("inside"), of.one("by"), of.one("least")
+    at.need("V is bounded", "bounded", V)
+    _positive(at, least)
+    at.prove("the logarithm is below V", "nonnegative", "V 1 g + log a * -", V=V, g=g, a=least)
+    at.prove("the square is below the inside", "nonnegative", "g e e * -", g=g, e=e)
+    at.learn("bounded", e)
 
 
 def _rate(at: Argument, of: Roles) -> None:
@@ -249,6 +274,8 @@ WAYS: dict[tuple[str, str], Callable[[Argument, Roles], None]] = {
     ("bounded", "composed"): _composed,
     ("bounded", "square"): _square,
     ("bounded", "form"): _form,
+    ("bounded", "parts"): _bounded_by_parts,
+    ("bounded", "logarithm"): _logarithm,
     ("bounded", "rate"): _by_rate,
     ("bounded", "combination"): _bounded_combination,
     ("tends", "combination"): _small_combination,
