@@ -10,14 +10,17 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tests.arena import bad, corner, good
+from tests.arena import arguments, bad, bad_arguments, corner, false_arguments, good
 
 ROOT = Path(__file__).parent
 
 
 def main() -> None:
     expected = {}
-    for folder, cases in (("good", good.CASES), ("bad", bad.CASES), ("corner", corner.CASES)):
+    rights = {**good.CASES, **arguments.CASES}
+    wrongs = {**bad.CASES, **bad_arguments.CASES, **false_arguments.CASES}
+    corners = {**corner.CASES, **bad_arguments.DECLINED}
+    for folder, cases in (("good", rights), ("bad", wrongs), ("corner", corners)):
         for old in (ROOT / folder).glob("*.json"):
             old.unlink()
         (ROOT / folder).mkdir(exist_ok=True)
