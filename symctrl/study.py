@@ -104,8 +104,8 @@ class Study:
     ) -> Expr:
         """A state (size x 1); its time derivative is given by `motion`.
 
-        system: of an abstract quantity, as in a lemma, the name of the system that it belongs to. A theorem is
-        about all states of the systems of which it reads one, or of the study's own model.
+        system: of an abstract quantity, as in a lemma, the name of the system that it belongs to. A theorem
+        is about all states of the systems of which it reads one, or of the study's own model.
         """
         return self.declare(symbol(name, (size, 1), tex), "state", unit, system=system)
 

@@ -18,7 +18,19 @@ from derivations.liang2016_formation.symbols import (
     study,
     u_bar,
 )
-from symctrl import along, along_trajectory, apart, at, bounded, claim, equal, initially, summable, tends
+from symctrl import (
+    along,
+    along_trajectory,
+    apart,
+    at,
+    bounded,
+    claim,
+    equal,
+    exists,
+    summable,
+    tends,
+    undefined,
+)
 from symctrl.vectors import absolute, power, stack
 
 i, j = fleet.node, fleet.neighbour
@@ -92,17 +104,29 @@ def omega_from_rate(i):
 
 
 @study.printed(
-    "after (3)", reading="the assumption q0 != 0 takes nothing away: q0 stays apart from zero by itself"
+    "after (3)",
+    reading="the assumption q0 != 0 takes nothing away: the loop is defined for every attitude",
+    finding={
+        "refuted": "A craft that has turned by half a turn has q0 = 0: there the law divides by zero. The "
+        "assumption is one about the trajectory, which the theorem must make or show."
+    },
 )
-def chart_is_kept():
-    """From every initial attitude with q0 > 0 the scalar part stays apart from zero."""
-    return claim(given=[initially(q[i].scalar > 0)], then=[apart(q[i].scalar)])
+def chart_takes_nothing_away():
+    """From every attitude with a norm of one the closed loop has a solution for all time."""
+    return claim(then=[exists()])
 
 
-@study.argument(chart_is_kept)
-def by_its_rate(run):
-    run.keeps(q[i].scalar)
-    run.apart(q[i].scalar, least=0)
+@study.counterexample(chart_takes_nothing_away)
+def half_a_turn():
+    return undefined(on_a_path({"q": [0, 0, 1], "q0": 0}, {"q": [0, 0, 1], "q0": 0}), graph="path:2")
+
+
+def on_a_path(first, second):
+    """Two craft at rest, with these attitudes."""
+    at_rest = {"omega": [0, 0, 0], "u_d": [0, 0, 0], "J": INERTIA}
+    values = {f"{name}.1": value for name, value in (at_rest | first).items()}
+    values |= {f"{name}.2": value for name, value in (at_rest | second).items()}
+    return values | {"u_bar": 1, "alpha": "0.01", "J_0": INERTIA}
 
 
 def ones():
@@ -130,11 +154,8 @@ def theorem_1():
 
 @study.counterexample(theorem_1, against=tends(q[i].scalar - q[j].scalar))
 def opposite_quaternions():
-    at_rest = {"omega": [0, 0, 0], "u_d": [0, 0, 0], "J": INERTIA}
     first, second = {"q": [0, 0, "3/5"], "q0": "4/5"}, {"q": [0, 0, "3/5"], "q0": "-4/5"}
-    values = {f"{name}.1": value for name, value in (at_rest | first).items()}
-    values |= {f"{name}.2": value for name, value in (at_rest | second).items()}
-    return at(values | {"u_bar": 1, "alpha": "0.01", "J_0": INERTIA}, graph="path:2")
+    return at(on_a_path(first, second), graph="path:2")
 
 
 @study.argument(theorem_1)

@@ -144,24 +144,27 @@ def candidates(
     if wide:
         alone = [(q, given) for q, given in products if q.total_degree() <= low]
         found += [Candidate(session.domain.field.normal(q), given, ()) for q, given in alone]
-    for candidate in _times_squares(session, p, products, squares, wide):
+    found += [
+        Candidate(session.domain.field.normal(product * square * square), given, (square,))
+        for square in squares
+        for product, given in products
+    ]
+    for candidate in _times_squares(session, p, products, wide):
         found.append(candidate)
         if len(found) >= MAX_CANDIDATES:
             break
     return found
 
 
-def _times_squares(
-    session: Session, p: Poly, products: Sequence[Product], advised: Sequence[Poly], wide: bool
-) -> Iterator[Candidate]:
-    """Each product times each square: those that are advised, and those of no higher degree than p's."""
+def _times_squares(session: Session, p: Poly, products: Sequence[Product], wide: bool) -> Iterator[Candidate]:
+    """Each product times each square of no higher degree than p's."""
     one, low = session.domain.field.polynomial(1), p.total_degree() + 2
     own = _squares(session, p, wide)
     for product, given in products:
-        fitting = [s for s in own if product.total_degree() + 2 * s.total_degree() <= low]
-        for square in [*advised, *fitting]:
-            value = session.domain.field.normal(product * square * square)
-            yield Candidate(value, given, () if square == one else (square,))
+        for square in own:
+            if product.total_degree() + 2 * square.total_degree() <= low:
+                value = session.domain.field.normal(product * square * square)
+                yield Candidate(value, given, () if square == one else (square,))
 
 
 def _products(session: Session) -> list[Product]:

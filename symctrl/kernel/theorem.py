@@ -145,7 +145,7 @@ def concluded(at: Argument, sentence: Sentence) -> bool:
     keys = [output_key(at, k) for k in sentence.of]
     by = "" if sentence.by is None else output_key(at, sentence.by)
     if sentence.word in ("stays", "enters", "settles", "eventually"):
-        return (sentence.word, at.set_key(sentence.zero, keys, by)) in at.facts
+        return _set_is_known(at, sentence, keys, by)
     if sentence.word == "exponentially":
         return all(("exponentially", f"{key} {by}".strip()) in at.facts for key in keys)
     if sentence.word == "bounded" and by:
@@ -153,6 +153,14 @@ def concluded(at: Argument, sentence: Sentence) -> bool:
     if sentence.word == "bounded":
         return all(_output_is_bounded(at, k) for k in sentence.of)
     return all((sentence.word, key) in at.facts for key in keys)
+
+
+def _set_is_known(at: Argument, sentence: Sentence, keys: list[str], by: str) -> bool:
+    """What is never left, or held from a time on, part by part is so as a whole; being reached is not so."""
+    if (sentence.word, at.set_key(sentence.zero, keys, by)) in at.facts:
+        return True
+    alone = [(sentence.word, at.set_key(sentence.zero, [key], by)) for key in keys]
+    return sentence.word != "enters" and all(fact in at.facts for fact in alone)
 
 
 def output_key(at: Argument, k: int) -> str:

@@ -46,9 +46,35 @@ def _near(chain: Chain, name: str) -> list[str]:
 
 
 def _below(chain: Chain, V: str, name: str) -> bool:
-    """A multiple of its square is below the bounded V."""
+    """A multiple of its square, or of its absolute value, is below the bounded V, or below its logarithm."""
     table = {"word": "bounded", "how": "square", "e": name, "by": [V]}
-    return carried_with(chain, table, squares_in(chain, V, name))
+    if carried_with(chain, table, squares_in(chain, V, name)):
+        return True
+    if chain.attempt("carries", {"word": "bounded", "how": "parts", "e": name, "by": [V]}):
+        return True
+    return any(
+        chain.attempt("carries", {"word": "bounded", "how": "logarithm", "e": name, "by": V} | way)
+        for way in _logarithms(chain, V)
+    )
+
+
+def _logarithms(chain: Chain, V: str) -> list[dict[str, str]]:
+    """g and a for each term a log(1 + g) of V."""
+    found = algebra(chain, [V], _logarithmic_terms) or []
+    return [{"inside": chain.q(inside), "least": chain.q(least)} for inside, least in found]
+
+
+def _logarithmic_terms(found: Algebra) -> list[tuple[Tape, Tape]]:
+    (V,) = found.values
+    domain, field = found.session.domain, found.session.domain.field
+    terms = []
+    for k, g in enumerate(field.generators):
+        if g.kind == "function" and g.name == "log":
+            factor = found.coefficient(V, {k: 1})
+            less = domain.sub_(g.argument[0], domain.constant(Fraction(1)))
+            tapes = _tapes(found, [less, factor]) if factor and found.is_constant(factor) else None
+            terms += [(tapes[0], tapes[1])] if tapes else []
+    return terms
 
 
 def bounded_by_constants(chain: Chain, name: str) -> bool:
@@ -139,7 +165,7 @@ def bounded_states(chain: Chain) -> None:
     names = {state: chain.q(bare(state)) for state in chain.at.statement.motion}
     for name in _open(chain, names):
         bounded_by_constants(chain, name)
-    _bounded_forms(chain, list(_open(chain, names)))
+    bounded_forms(chain, list(_open(chain, names)))
     for name in _open(chain, names):
         bounded(chain, name)
     for rate in chain.at.field().values():
@@ -156,15 +182,15 @@ def _open(chain: Chain, names: Mapping[str, str]) -> Iterator[str]:
 # Several quantities at once
 
 
-def _bounded_forms(chain: Chain, names: Sequence[str]) -> None:
-    """e'P e <= k + V for the quadratic part of a bounded V in each column of symbols, and in all."""
+def bounded_forms(chain: Chain, names: Sequence[str]) -> None:
+    """e'P e <= k + V for the quadratic part of a bounded V in all symbols, and in each column of them."""
     columns: dict[str, list[str]] = {}
     for name in names:
-        (read,) = chain.at.traits(name).reads or ("",)
+        read = min(chain.at.traits(name).reads, default="")
         columns.setdefault(read.partition("[")[0], []).append(name)
     for V in chain.having("bounded"):
-        for column in (*columns.values(), list(names)):
-            if len(column) > 1 or column == list(names):
+        for column in (list(names), *columns.values()):
+            if len(column) > 1:
                 _bounded_form(chain, V, [n for n in column if not chain.at.has("bounded", n)])
 
 

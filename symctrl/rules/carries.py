@@ -43,7 +43,8 @@ def carries(chain: Chain, what: What) -> bool:
     fact: Fact = what["fact"]
     if fact.word == "exists":
         return existence(chain) or chain.run("exists", {"edges": []})
-    assert fact.of is not None
+    if fact.of is None:
+        return chain.fail(fact.word, f"that {fact.text()} is given by the rule lyapunov")
     names = chain.qs([fact.of] if fact.of.shape == (1, 1) else list(fact.of))
     if fact.word in SETS:
         time = None if fact.by is None else chain.q(fact.by)
@@ -125,8 +126,10 @@ def set_of(chain: Chain, word: str, zero: bool, names: Sequence[str], time: str 
             known = (word, _set_key(chain, inner_zero, [inner], time)) in chain.at.facts
             if known and chain.attempt("carries", table | smaller):
                 return True
-    if word == "stays" and not zero and all(chain.attempt("keeps", {"g": name}) for name in names):
-        return len(names) == 1
+    if len(names) > 1 and word != "enters":
+        return all([set_of(chain, word, zero, [name], time) for name in names])
+    if word == "stays" and not zero and chain.attempt("keeps", {"g": names[0]}):
+        return True
     return chain.fail(word, f"no smaller set is known of which {word} is said")
 
 

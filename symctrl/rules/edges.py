@@ -12,7 +12,7 @@ from symctrl.rules.ways import ensure
 
 
 def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
-    """Quantities for those arguments (`kind key`) that are not known to stay inside, nor can be carried over."""
+    """Those arguments (`kind key`) that are not known to stay inside, nor can be carried over, as quantities."""
     open_ = {edge.split(" ", 1)[1] for edge in wanted if not chain.at.edge_is_known(*edge.split(" ", 1))}
     found: list[str] = []
     for tape in arguments(chain):
@@ -28,8 +28,7 @@ def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
         name
         for name in found
         if any(
-            edge.endswith(f" {chain.at.traits(name).key}")
-            and not chain.at.edge_is_known(*edge.split(" ", 1))
+            edge.endswith(f" {chain.at.traits(name).key}") and not chain.at.edge_is_known(*edge.split(" ", 1))
             for edge in wanted
         )
     ]

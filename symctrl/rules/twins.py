@@ -1,7 +1,7 @@
 """Twins of a proved theorem: each assumption dropped, each addend of a law with its sign turned.
 
-The argument must not close for a twin; where it does, it does not need the assumption, or the theorem does not
-depend on what the law says.
+The argument must not close for a twin; where it does, it does not need the assumption, or the theorem does
+not depend on what the law says.
 """
 
 from __future__ import annotations

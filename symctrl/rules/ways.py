@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from symctrl.records import Sum
 from symctrl.rules.algebra import algebra
-from symctrl.rules.boundedness import bounded
+from symctrl.rules.boundedness import bounded, bounded_forms
 from symctrl.rules.chain import Chain
 from symctrl.rules.combination import combinations
 from symctrl.rules.constants import (
@@ -28,7 +28,9 @@ def ensure(chain: Chain, word: str, name: str) -> bool:
 
 
 def ensure_all(chain: Chain, word: str, names: Sequence[str]) -> list[str]:
-    """The quantities to which the fact cannot be carried over, one by one or by combinations."""
+    """The quantities to which the fact cannot be carried over, one by one, as a vector or by combinations."""
+    if word == "bounded" and len(names) > 1:
+        bounded_forms(chain, [name for name in names if not chain.at.has(word, name)])
     for name in names:
         ensure(chain, word, name)
     if word == "tends":

@@ -163,7 +163,7 @@ def v_of_a_part_of_the_state():
     return theorem(study, [tends(y)], lines)
 
 
-@false("V is differentiable", "lasalle: x is bounded")
+@false("V is differentiable", "lasalle: the rate of v is continuous")
 def relay_without_damping():
     study, x, v = states("x", "v")
     study.motion(x, v)
