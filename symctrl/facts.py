@@ -108,7 +108,9 @@ def stays(claim: Comparison | Statement | Sequence[Any]) -> Fact:
 
 
 def enters(claim: Comparison | Statement | Sequence[Any], by: Liftable | None = None) -> Fact:
-    """Every solution is in the set at some time; `by`: not later than this."""
+    """Every solution is in the set at some time; `by`: not later than this, or at the beginning where this is
+    negative.
+    """
     return _about_set("enters", claim, by)
 
 

@@ -16,6 +16,7 @@ from symctrl.graph import Tape
 Output = tuple[str, int]  # output k of a listing
 ADVICE = "advice"
 PROVED = "statement"  # what an assumption is about that is a proved statement
+LEMMA = "lemma"  # what an assumption is about that a line of an argument has shown
 OBLIGATION = "obligation"  # what an assumption is about that belongs to one obligation of a rule
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from symctrl.graph import Instruction, Tape
-from symctrl.problem import OBLIGATION, PROVED, Assumption, Meaning, Output, Problem, star
+from symctrl.problem import LEMMA, OBLIGATION, PROVED, Assumption, Meaning, Output, Problem, star
 
 Visit = tuple[str, int, str | None]  # listing, level, law
 
@@ -193,7 +193,7 @@ def _is_about(problem: Problem, assumption: Assumption, read: Collection[str]) -
     if assumption.about == OBLIGATION:
         return True
     symbols = {star(n) for of in assumption.of for n in problem.listings[of[0]].inputs}
-    if assumption.about == PROVED:
+    if assumption.about in (PROVED, LEMMA):
         return bool(symbols & set(read))
     kinds = {problem.scalars.get(n, "name") for n in symbols}
     occurring = symbols & set(read)

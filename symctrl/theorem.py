@@ -45,7 +45,8 @@ class Theorem(Statement):
 
     given: assumptions by what they are about. suppose: facts assumed of solutions or signals. then: the
     conclusions. laws: those that close the loop; None for all of the study. free: definitions whose formulas
-    are not looked at: the theorem is for all their values.
+    are not looked at: the theorem is for all their values. trajectory: with the study's assumptions about the
+    trajectory.
     """
 
     given: tuple[About, ...]
@@ -53,6 +54,7 @@ class Theorem(Statement):
     then: tuple[Fact, ...]
     laws: tuple[Law, ...] | None = None
     free: tuple[Definition, ...] = ()
+    trajectory: bool = True
 
     @property
     def kind(self) -> str:
@@ -69,12 +71,15 @@ class Theorem(Statement):
         return f"if {given}, then {then}" if given else then
 
 
-def claim(given: Any = (), then: Any = (), laws: Any = None, free: Any = ()) -> Theorem:
+def claim(
+    given: Any = (), then: Any = (), laws: Any = None, free: Any = (), trajectory: bool = True
+) -> Theorem:
     """A theorem: under what is given, every solution exists for all time and does what `then` says.
 
     given: assumptions (about parameters, or signals where they speak of one), `initially(..)`,
     `along_trajectory(..)`, and facts like summable(w). then: facts. laws: the laws that close the loop, all
-    of the study if left out. free: definitions that are signals here, with any values. Raises TypeError.
+    of the study if left out. free: definitions that are signals here, with any values. trajectory: are the
+    study's assumptions about the trajectory made too? Raises TypeError.
     """
     assumptions: list[About] = []
     suppose: list[Fact] = []
@@ -98,7 +103,8 @@ def claim(given: Any = (), then: Any = (), laws: Any = None, free: Any = ()) -> 
             raise TypeError(f"then: a conclusion is a fact like tends(x), not {fact!r}")
     if not conclusions:
         raise TypeError("then: a theorem concludes something, like then=[tends(x)]")
-    return Theorem(tuple(assumptions), tuple(suppose), tuple(conclusions), _laws(laws), _definitions(free))
+    closing, signals = _laws(laws), _definitions(free)
+    return Theorem(tuple(assumptions), tuple(suppose), tuple(conclusions), closing, signals, trajectory)
 
 
 def initially(claim: Statement | Comparison) -> About:
@@ -205,8 +211,29 @@ class Run:
             time=_maybe(time),
         )
 
+    def holds(self, claim: Any) -> None:
+        """What is true of every state: an inequality, equation or nonzero(x), an assumption of the lines
+        below.
+        """
+        plain = claimed(claim)
+        if isinstance(plain, Equal):
+            kind, e = "zero", plain.left - plain.right
+        elif isinstance(plain, Nonzero):
+            kind, e = "nonzero", plain.expr
+        elif isinstance(plain, Bound):
+            kind, e = "positive" if plain.strict else "nonnegative", plain.expr
+        else:
+            raise TypeError(f"holds takes an equation, a bound or nonzero(x), not {claim!r}")
+        self._line("holds", e=_some(e), kind=kind)
+
+    def part(self, term: Any, of: Any) -> None:
+        """A term that is not negative is not above its sum over all nodes, for the lines below."""
+        self._line("part", term=_one(term), of=_one(of))
+
     def keeps(self, g: Any, a: Any = None) -> None:
-        """g' >= -a g: where g >= 0 at the beginning it stays so, and is an assumption of the lines below."""
+        """g' >= -a g, or g is not zero wherever the field has a value: where g >= 0 (g > 0) at the beginning
+        it stays so, and is an assumption of the lines below.
+        """
         if isinstance(g, Comparison | Bound):
             g = claimed(g).expr
         self._line("keeps", g=_some(g), a=_maybe(a))

@@ -15,10 +15,10 @@ from typing import Any
 
 from symctrl.decide.factors import Term, as_product, is_tied, opened, parts_of
 from symctrl.decide.forms import Form, form_of, without_forms
-from symctrl.decide.identity import vanishes
 from symctrl.decide.programme import by_programme, candidates
 from symctrl.decide.session import Session
 from symctrl.decide.squares import as_squares, completed, completed_with_multiplier
+from symctrl.decide.summed import terms_of_totals
 from symctrl.domains.field import Exact, Poly
 
 __all__ = ["Known", "entry_of", "form_of", "terms_of"]
@@ -49,7 +49,8 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     if known.times is not None:
         return _scaled_entry(session, value, strict, known, [known.times])
     if session.totals:
-        return {"terms": []} if not strict and vanishes(session, value) else None
+        of_sums = None if strict else terms_of_totals(session, value)
+        return None if of_sums is None else {"terms": of_sums}
     terms = terms_of(session, value, strict, known)
     if terms is not None:
         return {"terms": terms}

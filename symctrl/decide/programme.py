@@ -6,8 +6,8 @@ exactly.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
 from typing import Any
@@ -26,7 +26,8 @@ MAX_PRODUCTS = 25
 MAX_PAIRED = 8  # symbols whose sums and differences are tried
 MAX_TRIPLED = 8  # assumptions whose products of three are tried
 TINY = 1e-9
-Monomial = tuple[int, ...]
+Row = tuple[Any, ...]  # a monomial by its exponents
+Column = Mapping[Row, Any]  # coefficients
 Product = tuple[Poly, tuple[Any, ...]]  # its value, and its factors as in a term
 
 
@@ -43,17 +44,13 @@ def by_programme(
     session: Session, p: Poly, strict: bool, candidates: Sequence[Candidate]
 ) -> list[Term] | None:
     """The terms of p as a sum of positive multiples of candidates; None where none is found."""
-    table = _Table()
-    columns = [table.column(candidate.value) for candidate in candidates]
-    target = table.column(p)
-    if not columns or len(table.rows) > MAX_MONOMIALS:
+    if not candidates:
         return None
+    columns = [_by_monomial(candidate.value) for candidate in candidates]
     sure = [_is_sure(session, candidate) for candidate in candidates]
-    chosen = _chosen(table, columns, target, [-1.0 if strict and s else 1e-3 for s in sure])
-    weights = None if chosen is None else _exact_weights([columns[n] for n in chosen], target)
-    if chosen is None or weights is None or any(w < 0 for w in weights):
+    used = weights_of(columns, _by_monomial(p), [-1.0 if strict and s else 1e-3 for s in sure])
+    if used is None:
         return None
-    used = [(n, w) for n, w in zip(chosen, weights, strict=True) if w]
     if strict and not any(sure[n] for n, _ in used):
         return None
     json = session.domain.field.json
@@ -63,32 +60,40 @@ def by_programme(
     ]
 
 
-@dataclass
-class _Table:
-    """Monomials by row; a column has the coefficients of a polynomial."""
+def weights_of(
+    columns: Sequence[Column], target: Column, cost: Sequence[float]
+) -> list[tuple[int, Fraction]] | None:
+    """Exact positive weights with which columns add up to the target, by number; None where there are none."""
+    rows = {row: n for n, row in enumerate({row: None for column in (*columns, target) for row in column})}
+    if not columns or len(rows) > MAX_MONOMIALS:
+        return None
+    chosen = _chosen(rows, columns, target, cost)
+    weights = None if chosen is None else _exact_weights([columns[n] for n in chosen], target)
+    if chosen is None or weights is None or any(w < 0 for w in weights):
+        return None
+    return [(n, w) for n, w in zip(chosen, weights, strict=True) if w]
 
-    rows: dict[Monomial, int] = field(default_factory=dict)
 
-    def column(self, p: Poly) -> dict[int, Any]:
-        """The coefficients by row, with new rows as they are needed."""
-        return {self.rows.setdefault(tuple(map(int, e)), len(self.rows)): c for e, c in p.terms()}
+def _by_monomial(p: Poly) -> Column:
+    return {tuple(map(int, e)): c for e, c in p.terms()}
 
-    def floats(self, columns: Sequence[dict[int, Any]]) -> Any:
-        """The columns side by side in floating point."""
-        matrix = np.zeros((len(self.rows), len(columns)))
-        for n, column in enumerate(columns):
-            for m, c in column.items():
-                matrix[m, n] = float(Fraction(int(c.p), int(c.q)))
-        return matrix
+
+def _floats(rows: Mapping[Row, int], columns: Sequence[Column]) -> Any:
+    """The columns side by side in floating point."""
+    matrix = np.zeros((len(rows), len(columns)))
+    for n, column in enumerate(columns):
+        for row, c in column.items():
+            matrix[rows[row], n] = float(Fraction(int(c.p), int(c.q)))
+    return matrix
 
 
 def _chosen(
-    table: _Table, columns: Sequence[dict[int, Any]], target: dict[int, Any], cost: Sequence[float]
+    rows: Mapping[Row, int], columns: Sequence[Column], target: Column, cost: Sequence[float]
 ) -> list[int] | None:
     """The columns that add up to the target about, at the least cost; None where none do."""
     from scipy.optimize import linprog
 
-    matrix, right = table.floats(columns), table.floats([target])[:, 0]
+    matrix, right = _floats(rows, columns), _floats(rows, [target])[:, 0]
     widths = np.maximum(np.abs(matrix).max(axis=0), 1e-300)
     height = max(float(np.abs(right).max()), 1e-300)
     answer = linprog(
@@ -97,11 +102,11 @@ def _chosen(
     return [n for n in range(len(columns)) if answer.x[n] > TINY] if answer.status == 0 else None
 
 
-def _exact_weights(columns: Sequence[dict[int, Any]], target: dict[int, Any]) -> list[Fraction] | None:
+def _exact_weights(columns: Sequence[Column], target: Column) -> list[Fraction] | None:
     """The exact solution of sum w_n column_n = target, if there is one."""
     if not columns:
         return [] if not target else None
-    rows = sorted({m for column in columns for m in column} | set(target))
+    rows = list({m: None for column in (*columns, target) for m in column})
     system = flint.fmpq_mat(
         len(rows), len(columns) + 1, [c.get(m, flint.fmpq(0)) for m in rows for c in (*columns, target)]
     )

@@ -47,11 +47,12 @@ from symctrl.kernel.place import (
 )
 from symctrl.kernel.spots import Spot
 from symctrl.kernel.traits import NOT_AFFINE, SMOOTH
-from symctrl.kernel.trajectory import along
+from symctrl.kernel.trajectory import ENTIRE, along
 from symctrl.kernel.values import Condition, Sentence, Statement
 from symctrl.kernel.witness import BITS
 
 EXISTS = Sentence("exists", ())
+SMOOTH_WHERE_DEFINED = ENTIRE | {"DIV", "INV"}  # a rate has a value where its formula has, and only there
 OWN = {
     "at": ("values", "switches"),
     "leaves": ("values",),
@@ -201,7 +202,8 @@ def undefined(
     law, reach = statement.claim.law, Reach(statement)
     for name, _ in statement.motion.values():
         reach.listing(name, "i", 0, law)
-    if any(level for _, level, _ in reach.done):
+    rated = {name for name, level, _ in reach.done if level}
+    if not {step.op for name in rated for step in statement.listings[name].code} <= SMOOTH_WHERE_DEFINED:
         raise Declined("the field reads rates, which may have a value where their formula has none")
     site = Site(statement, place, bits)
     site.require_given()

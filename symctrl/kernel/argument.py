@@ -27,9 +27,11 @@ from symctrl.kernel.traits import LIPSCHITZ, NOT_AFFINE, Reading, Traits, readin
 from symctrl.kernel.values import Assumption, Claim, Listing, Statement, Step
 
 OBLIGATION = "obligation"
+LEMMA = "lemma"  # what an assumption is about that a line has shown to hold at every state
 Roles = Mapping[str, "str | list[str]"]
 Known = tuple[str, str]  # a word and what it is about: a key, or the keys of a set
 STRICT = frozenset(("nonzero", "positive"))
+INSIDE = "inside"
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,7 @@ class Beside:
     """What an obligation may use beside or in place of the assumptions that are available.
 
     extra: assumed too. closed: assumptions that leave out a part of the boundary of the domain must not be
-    used. only: of those available these alone.
+    used, nor what was shown with them. only: of those available these alone.
     """
 
     extra: tuple[Assumption, ...] = ()
@@ -173,10 +175,12 @@ class Argument:
             "nonnegative": ("positive ", "nonnegative "),
             "unit": ("unit ",),
         }
-        return any(("apart", f"{sign}{key}") in self.facts for sign in words[kind])
+        keys = [f"{sign}{key}" for sign in words[kind]]
+        return any((word, key) in self.facts for word in ("apart", INSIDE) for key in keys)
 
     def learn_edge(self, kind: str, key: str) -> None:
-        self.facts.add(("apart", key if kind == "nonzero" else f"{kind} {key}"))
+        """It stays inside its domain over every finite time."""
+        self.facts.add((INSIDE, key if kind == "nonzero" else f"{kind} {key}"))
 
     def is_constant(self, quantity: str) -> bool:
         return all(map(self._is_parameter, self.traits(quantity).reads))
@@ -284,13 +288,20 @@ class Argument:
     def set_key(zero: bool, keys: Sequence[str], by: str = "") -> str:
         return f"{'=' if zero else '>='} {' '.join(sorted(keys))} {by}"
 
-    def begin(self, cofactors: Mapping[str, str]) -> None:
+    def begin(self, cofactors: Mapping[str, str], edges: Sequence[str] = ()) -> None:
         """Sorts the assumptions, and asks that the equations about states are kept.
 
         An equation g = 0 is kept where g' = c g for a c that is continuous in the state, not only where g =
         0: then g is exp(int c) times its value at the beginning. cofactors: c by the quantity of the
-        equation.
+        equation. edges: quantities that the field divides by, or takes logarithms of: it has a value all
+        along a solution.
         """
+        strict = {key for kind, _, key in (e.partition(" ") for e in self.edges()) if kind in STRICT}
+        for edge in edges:
+            known = self.traits(edge).key in strict
+            self.require("the field has no value where it is zero", known, f"it does not divide by {edge}")
+        apart = [Assumption("nonzero", ((edge, 0),), text=f"{edge} != 0", about=LEMMA) for edge in edges]
+        self.available = list(apart)
         for k, assumption in enumerate(self.statement.given):
             keys = [self.output_traits(ref).key for ref in assumption.of]
             if assumption.about == "trajectory" or not self._is_of_the_beginning(assumption):
@@ -302,7 +313,8 @@ class Argument:
                 self.initial.append((keys[0], assumption))
         for quantity, assumption in self.relations:
             self._keep(quantity, assumption, cofactors.get(quantity))
-        self.available += [assumption for _, assumption in self.relations]
+        relations = [assumption for _, assumption in self.relations]
+        self.available = [*self.available[len(apart) :], *relations, *apart]
 
     def _keep(self, quantity: str, assumption: Assumption, cofactor: str | None) -> None:
         role = f"{assumption.text or quantity} is kept"
@@ -373,8 +385,17 @@ class Argument:
         beside = obligation.beside
         kept: Sequence[Assumption] = self.available if beside.only is None else beside.only
         if beside.closed:
-            kept = [a for a in kept if a.kind not in STRICT or self._is_about_constants(a)]
+            kept = [a for a in kept if self._is_about_constants(a) or self._is_closed(a)]
         return [*kept, *beside.extra]
+
+    def _is_closed(self, assumption: Assumption) -> bool:
+        """Does it hold at limits of states at which it holds, for the same signals?"""
+        traits = [self.output_traits(ref) for ref in assumption.of]
+        strict = assumption.kind in (*STRICT, "positive_definite")
+        if strict or assumption.about == LEMMA or any(t.edges or t.jumps for t in traits):
+            return False
+        free = any(self.is_signal(name) for t in traits for name in t.reads)
+        return not (free and self.reads_states(assumption))
 
     def mint(self, name: str, formulas: Sequence[str]) -> None:
         """A listing of the rules' own, of formulas over the states."""

@@ -50,8 +50,10 @@ def total(a: SignSet, b: SignSet) -> SignSet:
 class Signs:
     """What is known about the signs of polynomials, and what is needed and not known."""
 
-    def __init__(self, field: Field, table: list[Generator]) -> None:
+    def __init__(self, field: Field, table: list[Generator], along: bool = False) -> None:
+        """along: a switch has any value from -1 to 1 at its jump, as along a solution; else zero."""
         self.field = field
+        self.along = along
         self.table = table
         self.printer = Printer(table, field)
         self.needed: dict[Condition, Poly] = {}
@@ -165,7 +167,7 @@ class Signs:
             return ANY
         of = self.of(g.base)
         if g.kind == "sign":
-            return of
+            return ANY if self.along and 0 in of else of
         return positive if (0 not in of if g.kind == "abs" else of == positive) else nonnegative
 
     def of_value(self, value: Value) -> SignSet:

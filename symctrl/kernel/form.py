@@ -38,6 +38,7 @@ from symctrl.kernel.values import (
 )
 
 MAX_INSTRUCTIONS = 2_000_000
+OWN = frozenset(("obligation", "mode", "modes", "mode is", "mode below"))  # listings that the kernel makes
 MAX_SIZE = 10_000  # rows or columns of a claim
 SCALAR_KINDS = ("state", "parameter", "input", "signal")
 SIGN_KINDS = ("zero", "nonzero", "positive", "nonnegative", "laplacian_bound")
@@ -55,6 +56,8 @@ WORDS = (
     "summable",
     "stable",
 )
+SETS = frozenset(("stays", "enters", "settles", "eventually"))
+TIMED = frozenset(("exponentially", "bounded", "enters", "settles"))  # those with a rate, a bound or a time
 SUPPOSABLE = ("tends", "bounded", "apart", "summable")
 CONDITION_KINDS = ("nonzero", "nonnegative", "positive")
 
@@ -80,6 +83,8 @@ def read_statement(value: Any) -> Statement:
         raise Invalid("a condition is listed twice")
     study, id_, words = (text_field(s[field], field) for field in ("study", "id", "text"))
     claim = _claim(s["claim"], listings)
+    if claim.kind == "theorem":
+        _require_foreign(listings)
     if claim.small is not None and tables["scalars"].get(claim.small) != "parameter":
         raise Declined(f"the claim is about small values of {claim.small[:60]}, which is no parameter of it")
     uses = tuple(map(_use, typed(s["uses"], list, "uses") if "uses" in s else ()))
@@ -104,9 +109,16 @@ def read_statement(value: Any) -> Statement:
 def read_tables(s: Mapping[str, Any], known: Mapping[str, Listing]) -> dict[str, dict[str, Any]]:
     """The tables that an argument adds to a statement whose listings are known."""
     new = {name: _listing(entry, f"listing {name[:60]!r}") for name, entry in _table(s, "listings")}
+    _require_foreign(new)
     if sum(len(listing.code) for listing in new.values()) > MAX_INSTRUCTIONS:
         raise Declined(f"the listings have more than {MAX_INSTRUCTIONS} instructions")
     return {"listings": new} | _tables(s, {**known, **new})
+
+
+def _require_foreign(listings: Mapping[str, Listing]) -> None:
+    taken = sorted(OWN & listings.keys())
+    if taken:
+        raise Invalid(f"the name {taken[0]} of a listing belongs to the rules")
 
 
 def _tables(s: Mapping[str, Any], listings: Mapping[str, Listing]) -> dict[str, dict[str, Any]]:
@@ -276,9 +288,11 @@ def _sentence(value: Any, count: int, where: str) -> Sentence:
     of = tuple(natural(k, count, where) for k in typed(table["of"], list, where))
     by = natural(table["by"], count, where) if "by" in table else None
     at = {_key(name): rational(x, where) for name, x in typed(table.get("at", {}), dict, where).items()}
-    if (word in ("exists", "stable")) == bool(of) or (word == "stable") != bool(at):
+    zero = typed(table.get("zero", False), bool, where)
+    unfit = (by is not None and word not in TIMED) or (zero and word not in SETS)
+    if unfit or (word in ("exists", "stable")) == bool(of) or (word == "stable") != bool(at):
         raise Invalid(f"{where}: {word} is not said like this")
-    return Sentence(word, of, typed(table.get("zero", False), bool, where), by, tuple(sorted(at.items())))
+    return Sentence(word, of, zero, by, tuple(sorted(at.items())))
 
 
 def _tree(value: Any, count: int, used: set[int]) -> int:

@@ -55,7 +55,7 @@ class Replay(Domain[Value]):
             raise Invalid("a factor is a number")
         self.table = read_generators(generators, self.field)
         self.free = {g.name: k for k, g in enumerate(self.table) if g.kind == "free"}
-        self.signs = Signs(self.field, self.table)
+        self.signs = Signs(self.field, self.table, statement.along)
         self.statement = statement
         self.walk = Evaluation(statement, self, self._free, sums)
         self.given: list[list[Value]] = [[]] * len(statement.given)
@@ -64,6 +64,7 @@ class Replay(Domain[Value]):
         self._results: dict[Any, Value] = {}
         self._used: set[int] = set()
         self._used_factors: set[int] = set()
+        self._read: set[int] = set()
         self._learned: list[Relation] = []
         self._assuming = False
         self._add_relations()
@@ -164,6 +165,9 @@ class Replay(Domain[Value]):
             idle = set(range(count)) - used
             if idle:
                 raise Invalid(f"{what} {min(idle)} is not used")
+        foreign = {k for k, g in enumerate(self.table) if g.kind == "free"} - self._read
+        if foreign:
+            raise Invalid(f"{self.table[min(foreign)].name[:60]} is no symbol that the statement reads")
         return set(self.signs.needed)
 
     def _establish(self, generators: Iterable[int], factors: Iterable[int] = ()) -> None:
@@ -190,6 +194,7 @@ class Replay(Domain[Value]):
         if name not in self.free:
             raise Invalid(f"{name} is not in the table of generators")
         self._used.add(self.free[name])
+        self._read.add(self.free[name])
         return self.field.generator(self.free[name])
 
     def add(self, a: Value, b: Value) -> Value:

@@ -6,8 +6,9 @@ Theorem: a conclusion holds for every solution where a chain of rules gives it. 
 `kernel.rules`; `argument` composes their obligations, each of which has a proof of one of the kinds below.
 
 Proof fields: `listings`, `names`, `scalars`, `motion`, `laws`, more of what the statement has, for the
-argument alone; `quantities`, those of the listings, of one output each, that its lines speak of; `relations`,
-the proofs that equations are kept, and `cofactors` c with g' = c g by the names of these; `lines`, each
+argument alone; `quantities`, those of the listings, of one output each, that its lines speak of; `edges`, of
+these, that the field divides by; `relations`, the proofs that equations are kept, and `cofactors` c with g' =
+c g by the names of these; `lines`, each
 {rule, of, proofs}. `of` has the quantities by role, `proofs` by role of the obligation {given, proof}: which
 of the available assumptions the proof uses, and the proof.
 """
@@ -28,7 +29,8 @@ from symctrl.kernel.rules.carries import carries
 from symctrl.kernel.rules.decays import decays
 from symctrl.kernel.rules.exists import exists
 from symctrl.kernel.rules.falls import falls
-from symctrl.kernel.rules.keeps import keeps
+from symctrl.kernel.rules.holds import holds, part
+from symctrl.kernel.rules.keeps import keeps, keeps_sign
 from symctrl.kernel.rules.lasalle import lasalle
 from symctrl.kernel.rules.lyapunov import lyapunov, point_key
 from symctrl.kernel.rules.outside import outside
@@ -40,6 +42,9 @@ RULES: dict[str, Callable[[Argument, Roles], None]] = {
     "decays": decays,
     "outside": outside,
     "keeps": keeps,
+    "keeps_sign": keeps_sign,
+    "holds": holds,
+    "part": part,
     "carries": carries,
     "exists": exists,
     "barbalat": barbalat,
@@ -63,16 +68,18 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
     """The conditions that the argument's proofs need. Raises Invalid or Declined where it does not close."""
     if statement.claim.kind != "theorem":
         raise Invalid(f"an argument does not prove the claim {statement.claim.kind}")
-    table = fields(proof, ("kind", *TABLES, "quantities", "relations", "cofactors", "lines"), "proof")
+    needed = ("kind", *TABLES, "quantities", "relations", "cofactors", "lines")
+    table = fields(proof, needed, "proof", ("edges",))
     whole, quantities = _whole(statement, table)
     checker = Checker()
     at = Argument(whole, quantities, checker, stated=frozenset(statement.motion))
     suppose(at)
     checker.proofs = typed(table["relations"], dict, "relations")
     cofactors = typed(table["cofactors"], dict, "cofactors")
-    if any(c not in quantities for c in cofactors.values()):
-        raise Invalid("a cofactor is no quantity of the argument")
-    at.begin(cofactors)
+    edges = typed(table.get("edges", []), list, "edges")
+    if any(c not in quantities for c in (*cofactors.values(), *edges)):
+        raise Invalid("a cofactor or an edge is no quantity of the argument")
+    at.begin(cofactors, edges)
     checker.close("relations")
     lines = typed(table["lines"], list, "lines")
     if len(lines) > MAX_LINES:
@@ -130,6 +137,8 @@ def suppose(at: Argument) -> None:
     """The facts that are supposed of every solution."""
     for sentence in at.statement.claim.suppose:
         for k in sentence.of:
+            if at.output_traits((at.statement.claim.listing, k)).jumps:
+                raise Invalid(f"what is supposed, that {sentence.word}, jumps where a switch turns")
             at.facts.add((sentence.word, output_key(at, k)))
 
 
@@ -140,8 +149,9 @@ def concluded(at: Argument, sentence: Sentence) -> bool:
     if sentence.word == "stable":
         moving = {key for key, _ in sentence.at} <= set(at.stated)
         return moving and ("stable", point_key(dict(sentence.at))) in at.facts
-    if any(not at.edges_are_known(at.output_traits((at.statement.claim.listing, k))) for k in sentence.of):
-        return False  # it is not shown to be defined along every solution
+    outputs = [at.output_traits((at.statement.claim.listing, k)) for k in sentence.of]
+    if any(traits.jumps or not at.edges_are_known(traits) for traits in outputs):
+        return False  # it is not shown to be defined along every solution, or is so up to a switch's value
     keys = [output_key(at, k) for k in sentence.of]
     by = "" if sentence.by is None else output_key(at, sentence.by)
     if sentence.word in ("stays", "enters", "settles", "eventually"):

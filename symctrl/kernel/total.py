@@ -3,7 +3,8 @@
 Soundness-critical. Last reviewed 2026-11-24.
 
 Theorem (`each`). A sum over nodes of terms that are nonnegative at every node is nonnegative; so is a sum
-over nodes and neighbours of terms that are nonnegative for every edge.
+over nodes i and neighbours j of terms t(i, j) with t(i, j) + t(j, i) >= 0 for every edge: in an undirected
+graph each is taken in both directions.
 
 Theorem (`spectral`). Let L be the Laplacian of an undirected graph with no eigenvalue above b, and P a
 quadratic form with constant coefficients. If P(x, m x) >= 0 for all x and all m with 0 <= m <= b, then the
@@ -21,17 +22,27 @@ degree must cancel.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from symctrl.kernel import combination
 from symctrl.kernel.argument import single
-from symctrl.kernel.certificate import Declined, Invalid, fields, natural, split_name, typed
+from symctrl.kernel.certificate import (
+    Declined,
+    Invalid,
+    at_node,
+    fields,
+    natural,
+    per_node,
+    split_name,
+    typed,
+)
+from symctrl.kernel.closure import Reach
 from symctrl.kernel.conditions import SIGNS
 from symctrl.kernel.polynomial import Poly, powers
-from symctrl.kernel.sums import SumIdentity, opened
+from symctrl.kernel.sums import OTHER, SumIdentity, opened
 from symctrl.kernel.values import Assumption, Claim, Condition, Listing, Statement, Step
 
 MODE = "mode"
@@ -52,22 +63,62 @@ def needed_conditions_each(statement: Statement, proof: dict[str, Any]) -> set[C
 
 def at_a_node(statement: Statement) -> Statement:
     """The claim with the term at node i in the place of each sum over nodes; where all terms are sums over
-    the neighbours, with that of an edge. Raises Invalid for other names.
+    the neighbours, with those of an edge in both directions. Raises Invalid for other names.
     """
     listing = statement.listings[statement.claim.listing]
+    _require_linear(statement, listing)
+    _require_own(statement, MODE)
     terms = {step.name: _term(statement, step.name) for step in listing.code if step.op == "INPUT"}
     edges = {name: _summand(statement, term) for name, term in terms.items() if term is not None}
-    if edges and None not in edges.values():
+    of_edges = bool(edges) and None not in edges.values()
+    if of_edges:
         terms = {**terms, **edges}
     maker = _Inlined()
     for step in listing.code:
         term = terms.get(step.name) if step.op == "INPUT" else None
         if term is None and step.op == "INPUT" and statement.scalars.get(step.name) != "parameter":
             raise Invalid(f"{step.name[:60]} is neither a sum over nodes nor a constant")
-        maker.put(step, term)
+        maker.put(step, term, both=of_edges)
     made = Listing(tuple(maker.code), tuple(maker.place[r] for r in listing.outputs), "")
     claim = Claim("nonnegative", MODE, (1, 1))
     return replace(statement, listings={**statement.listings, MODE: made}, claim=claim)
+
+
+def _require_own(statement: Statement, *names: str) -> None:
+    for name in names:
+        if name in statement.listings:
+            raise Invalid(f"the name {name} of a listing belongs to the proof")
+
+
+def _require_linear(statement: Statement, listing: Listing) -> None:
+    """Each output is, as it is written, a linear combination of sums over nodes with constant coefficients.
+
+    What is linear only by what is assumed of the sums is not so term by term.
+    """
+    degrees: list[int | None] = []  # None: constantly zero
+    for step in listing.code:
+        degrees.append(_degree(statement, step, [degrees[a] for a in step.args]))
+    if any(degrees[r] == 0 for r in listing.outputs):
+        raise Invalid("a constant is no sum over nodes")
+
+
+def _degree(statement: Statement, step: Step, args: list[int | None]) -> int | None:
+    """In the sums over nodes: 0 or 1. Raises Invalid for what is not linear."""
+    known = [a for a in args if a is not None]
+    if step.op == "INPUT":
+        meaning = statement.names.get(step.name)
+        return 1 if meaning is not None and meaning.kind == "total" else 0
+    if step.op == "CONST":
+        return 0 if step.value else None
+    if not any(known):
+        return 0 if known else None if step.op in ("ADD", "SUB", "NEG", "MUL", "TWICE", "SQ") else 0
+    if step.op in ("NEG", "TWICE") or (step.op in ("ADD", "SUB") and 0 not in known):
+        return 1
+    if step.op == "MUL" and sum(known) == 1:
+        return 1 if len(known) == 2 else None
+    if step.op == "DIV" and args == [1, 0]:
+        return 1
+    raise Invalid(f"{step.op} of sums over nodes is not linear in them")
 
 
 def _term(statement: Statement, name: str) -> Listing | None:
@@ -94,20 +145,35 @@ class _Inlined:
         self.code: list[Step] = []
         self.place: list[int] = []
 
-    def put(self, step: Step, instead: Listing | None) -> None:
+    def put(self, step: Step, instead: Listing | None, both: bool = False) -> None:
+        """both: the listing and, added to it, the same with the nodes i and j exchanged."""
         if instead is None:
             self.place.append(self._emit(step, self.place))
             return
+        there = self._put(instead.code)[instead.outputs[0]]
+        if both:
+            back = self._put([replace(inner, name=_exchanged(inner.name)) for inner in instead.code])
+            self.code.append(Step("ADD", (there, back[instead.outputs[0]])))
+            there = len(self.code) - 1
+        self.place.append(there)
+
+    def _put(self, code: Sequence[Step]) -> list[int]:
         registers: list[int] = []
-        for inner in instead.code:
+        for inner in code:
             registers.append(self._emit(inner, registers))
-        self.place.append(registers[instead.outputs[0]])
+        return registers
 
     def _emit(self, step: Step, registers: list[int]) -> int:
         moved = Step(step.op, tuple(registers[a] for a in step.args), step.name, step.value)
         if moved not in self.code:
             self.code.append(moved)
         return self.code.index(moved)
+
+
+def _exchanged(name: str) -> str:
+    """The name at the other end of the edge."""
+    key, node = split_name(name) if name else ("", "")
+    return at_node(key, OTHER[node]) if node in OTHER else name
 
 
 def needed_conditions_spectral(statement: Statement, proof: dict[str, Any]) -> set[Condition]:
@@ -122,15 +188,34 @@ def needed_conditions_spectral(statement: Statement, proof: dict[str, Any]) -> s
         raise Invalid("a proof mode by mode is of one sum over nodes")
     p = _at_a_node(test, values[0])
     form = _in_modes(test, p)
+    _require_own(statement, f"{MODE}s", f"{MODE} is", f"{MODE} below")
     inner = _statement(statement, test, form, bound)
-    return test.replay.close() | _proved(inner, inner.given, proof["modes"])
+    usable = [k for k, a in enumerate(inner.given) if k >= len(statement.given) or _is_global(statement, a)]
+    return test.replay.close() | _proved(inner, inner.given, proof["modes"], usable)
 
 
-def _proved(statement: Statement, given: tuple[Assumption, ...], entry: Any) -> set[Condition]:
+def _is_global(statement: Statement, assumption: Assumption) -> bool:
+    """Is it about parameters that belong to no node? Coordinates in modes are not the values at nodes."""
+    reach = Reach(statement)
+    for name, _ in assumption.of:
+        reach.listing(name, "i", 0, None)
+    scalars, names = statement.scalars, statement.names
+    return all(
+        not per_node(key)
+        and (scalars.get(key) == "parameter" or (key in names and names[key].kind in ("value", "constant")))
+        for key in reach.read
+    )
+
+
+def _proved(
+    statement: Statement, given: tuple[Assumption, ...], entry: Any, usable: Sequence[int] | None = None
+) -> set[Condition]:
     table = fields(entry, ("given", "proof"), "the inner proof")
     numbers = [natural(k, len(given), "given") for k in typed(table["given"], list, "given")]
     if numbers != sorted(set(numbers)):
         raise Invalid("the assumptions are numbered in order, each once")
+    if usable is not None and not set(numbers) <= set(usable):
+        raise Invalid("an assumption about what belongs to a node says nothing of modes")
     chosen = replace(statement, given=tuple(given[k] for k in numbers))
     proof = typed(table["proof"], dict, "the inner proof")
     if proof.get("kind") != "combination":

@@ -221,7 +221,9 @@ class TraitSums:
         if level:
             return tuple(self._summed(part, level - 1, how) for part in value)
         a: Traits = value
-        return self.domain._made(_key(how, a.key), [a], a.level, a.jumps, NOTHING, a.degree, a.bounded)
+        key = _key(how, a.key)
+        jumps = frozenset((_key("jump", key),)) if a.jumps else NOTHING  # at places of its own
+        return self.domain._made(key, [a], a.level, jumps, NOTHING, a.degree, a.bounded)
 
 
 def _key(op: str, *parts: str) -> str:

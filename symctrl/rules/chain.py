@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from symctrl.certify import certificate
 from symctrl.expr import Expr, lift
 from symctrl.graph import Tape
-from symctrl.kernel.argument import Argument
+from symctrl.kernel.argument import STRICT, Argument
 from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.check import check_text
 from symctrl.kernel.rules.roles import Roles
@@ -19,6 +19,7 @@ from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
 from symctrl.rules.algebra import rate_over
 from symctrl.rules.loop import Loop
+from symctrl.rules.tapes import arguments
 from symctrl.rules.seeker import Outcome, Seeker
 from symctrl.text import text
 from symctrl.theorem import Line
@@ -61,6 +62,7 @@ class Chain:
     steps: list[Table] = field(default_factory=list)
     relations: Table = field(default_factory=dict)
     cofactors: dict[str, str] = field(default_factory=dict)
+    edges: list[str] = field(default_factory=list)
     conditions: set[Condition] = field(default_factory=set)
     outcomes: list[Outcome] = field(default_factory=list)
     again: list[tuple[str, Table]] = field(default_factory=list)
@@ -69,17 +71,25 @@ class Chain:
         stated = frozenset(self.loop.problem.motion)
         self.at = Argument(self.loop.statement, (), self.seeker, stated=stated)
         suppose(self.at)
+        self.edges = self._edges()
         self.cofactors = self._cofactors()
         self.seeker.outcomes = []
-        self.at.begin(self.cofactors)
+        self.at.begin(self.cofactors, self.edges)
         self.relations = self._proofs()
         self.outcomes = self.seeker.outcomes
+
+    def _edges(self) -> list[str]:
+        """What the field divides by, or takes logarithms of, that is not made of parameters alone."""
+        divided = (edge.partition(" ") for edge in self.at.edges())
+        strict = {key for kind, _, key in divided if kind in STRICT}
+        named = dict.fromkeys(map(self.q, arguments(list(self.loop.collector.listings.values()))))
+        return [q for q in named if self.at.traits(q).key in strict and not self.at.is_constant(q)]
 
     def _cofactors(self) -> dict[str, str]:
         """For each equation g = 0 about states whose rate is not zero by itself, c with g' = c g."""
         seeker = Seeker(self.seeker.id, thorough=False)
         trial = Argument(self.at.statement, (), seeker)
-        trial.begin({})
+        trial.begin({}, self.edges)
         tried = [outcome for outcome in seeker.outcomes if outcome.problem is not None]
         found = {}
         for (quantity, _), outcome in zip(trial.relations, tried, strict=True):
@@ -199,11 +209,12 @@ class Chain:
     def certificate(self) -> Table:
         """The certificate of the whole argument, with the lines and quantities that it needs."""
         named = [name for step in self.steps for name in _named(step["of"], self.at.quantities)]
-        used = list(dict.fromkeys([*self.cofactors.values(), *named]))
+        used = list(dict.fromkeys([*self.edges, *self.cofactors.values(), *named]))
         proof = {
             "kind": "argument",
             **self.loop.added(used),
             "quantities": used,
+            "edges": self.edges,
             "relations": self.relations,
             "cofactors": self.cofactors,
             "lines": self.steps,

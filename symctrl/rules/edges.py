@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from symctrl.graph import Tape
 from symctrl.kernel.values import Sentence
 from symctrl.rules.chain import Chain
-from symctrl.rules.tapes import single
+from symctrl.rules.tapes import arguments
 from symctrl.rules.ways import ensure
 
 
@@ -15,7 +14,7 @@ def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
     """Those arguments (`kind key`) that are not known to stay inside, nor can be carried over, as quantities."""
     open_ = {edge.split(" ", 1)[1] for edge in wanted if not chain.at.edge_is_known(*edge.split(" ", 1))}
     found: list[str] = []
-    for tape in arguments(chain):
+    for tape in arguments(list(chain.loop.collector.listings.values())):
         if not open_:
             break
         name = chain.q(tape)
@@ -40,15 +39,3 @@ def define(chain: Chain, sentence: Sentence) -> None:
         traits = chain.at.output_traits((chain.loop.statement.claim.listing, k))
         if not chain.at.edges_are_known(traits):
             edges(chain, sorted(traits.edges))
-
-
-def arguments(chain: Chain) -> list[Tape]:
-    """The arguments of divisions, roots and logarithms in the tables of the loop, as tapes of one output."""
-    found = []
-    for tape in list(chain.loop.collector.listings.values()):
-        for step in tape.code:
-            if step.op in ("DIV", "INV"):
-                found.append(single(tape, step.args[-1]))
-            elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
-                found.append(single(tape, step.args[0]))
-    return found

@@ -1,4 +1,4 @@
-"""Lines whose constants the author gives: falls, decays, outside, keeps, exists, lyapunov."""
+"""Lines whose constants the author gives: falls, decays, outside, holds, part, keeps, exists, lyapunov."""
 
 from __future__ import annotations
 
@@ -55,9 +55,23 @@ def outside(chain: Chain, what: What) -> bool:
 
 
 def keeps(chain: Chain, what: What) -> bool:
-    table = {} if what["a"] is None else {"a": chain.q(what["a"])}
-    met = [chain.run("keeps", {"g": g} | table) for g in chain.qs(what["g"])]
+    names, table = chain.qs(what["g"]), {}
+    if what["a"] is None:
+        names = [g for g in names if not chain.attempt("keeps_sign", {"g": g})]
+    else:
+        table = {"a": chain.q(what["a"])}
+    met = [chain.run("keeps", {"g": g} | table) for g in names]
     return all(met)
+
+
+def holds(chain: Chain, what: What) -> bool:
+    met = [chain.run("holds", {"e": e, "kind": what["kind"]}) for e in chain.qs(what["e"])]
+    return all(met)
+
+
+def part(chain: Chain, what: What) -> bool:
+    term, total = chain.q(what["term"]), chain.q(what["of"])
+    return chain.run("part", {"e": chain.q(what["of"] - what["term"]), "term": term, "total": total})
 
 
 def exists(chain: Chain, what: What) -> bool:

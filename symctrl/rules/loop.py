@@ -61,7 +61,7 @@ class Loop:
         for used in using:
             if not isinstance(used.claim, Equal):
                 self.collector.assume(used.claim, PROVED)
-        with study.along_trajectory(changed.along):
+        with study.along_trajectory(changed.along and theorem.trajectory):
             self.collector._assume_what_occurs()
         self._close()
         empty = Problem(study.name, id_, theorem.text(), {}, Claim("theorem", "claim", theorem={}))

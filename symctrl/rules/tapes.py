@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from symctrl.graph import Instruction, Tape
 
 
@@ -23,3 +25,15 @@ def single(tape: Tape, register: int) -> Tape:
 def bare(state: str) -> Tape:
     """A symbol alone; in a fleet, that of node i."""
     return Tape((Instruction("INPUT", name=state.replace(".*", ".i")),), (0,))
+
+
+def arguments(listings: Iterable[Tape]) -> list[Tape]:
+    """What is divided by, and what roots and logarithms are taken of, as tapes of one output."""
+    found = []
+    for tape in listings:
+        for step in tape.code:
+            if step.op in ("DIV", "INV"):
+                found.append(single(tape, step.args[-1]))
+            elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
+                found.append(single(tape, step.args[0]))
+    return found

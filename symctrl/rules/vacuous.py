@@ -15,10 +15,18 @@ from symctrl.written import StudyError
 
 
 def refuse_assumed_conclusions(loop: Loop, id_: str) -> None:
-    """Raises StudyError where a conclusion is assumed of the trajectory, or follows at once from what is."""
+    """Raises StudyError where a conclusion is assumed of the trajectory, or follows at once from what is; and
+    where what is supposed jumps.
+    """
     seeker = Seeker(id_, thorough=False)
     at = Argument(loop.statement, (), seeker)
     claim = loop.statement.claim
+    for sentence, fact in zip(claim.suppose, loop.theorem.suppose, strict=True):
+        if any(at.output_traits((claim.listing, k)).jumps for k in sentence.of):
+            raise StudyError(
+                f"{id_}: {fact.text()} cannot be supposed: it jumps where a switch turns, and the solutions "
+                "take other values of the switch there"
+            )
     supposed = {(s.word, output_key(at, k)) for s in claim.suppose for k in s.of}
     along = [a for a in loop.statement.given if a.about == "trajectory"]
     for sentence, fact in zip(claim.then, loop.theorem.then, strict=True):

@@ -145,7 +145,7 @@ BAD: Bad = {
         changed(G["equation_with_a_cofactor"], "proof", "cofactors", to={}),
     ),
     "cofactor_that_is_no_quantity": (
-        "a cofactor is no quantity",
+        "a cofactor or an edge is no quantity",
         changed(G["equation_with_a_cofactor"], "proof", "cofactors", "relation1", to="claim"),
     ),
     "equation_that_is_not_shown_to_be_kept": (

@@ -44,6 +44,9 @@ def lasalle(at: Argument, of: Roles) -> None:
     smooth = at.traits(V).level == SMOOTH and not at.traits(V).jumps
     at.require("V is differentiable", smooth, f"{V} has a kink or a jump")
     at.require("V never increases", at.has("nonincreasing", V), f"{V} is not known to fall")
+    for g in (*zeros, *limits):
+        signals = sorted(name for name in at.traits(g).reads if at.is_signal(name))
+        at.require(f"{g} has no signal", not signals, f"it depends on {', '.join(signals)}")
     still = Assumption("zero", ((rate_listing(V, 1), 0),), text="V' = 0", about=OBLIGATION)
     for k, e in enumerate(zeros, start=1):
         at.prove(f"V' = 0 gives zero {k}", "equal", ["e", "0"], Beside((still,), closed=True), e=e)
