@@ -193,13 +193,21 @@ def _is_about(problem: Problem, assumption: Assumption, read: Collection[str]) -
     if assumption.about == OBLIGATION:
         return True
     symbols = {star(n) for of in assumption.of for n in problem.listings[of[0]].inputs}
-    if assumption.about in (PROVED, LEMMA):
-        return bool(symbols & set(read))
+    if assumption.about in (PROVED, LEMMA) and symbols & set(read):
+        return True
+    if assumption.about == LEMMA:  # sums over all nodes have to do with each other
+        return _has_total(problem, symbols) and _has_total(problem, read)
+    if assumption.about == PROVED:
+        return False
     kinds = {problem.scalars.get(n, "name") for n in symbols}
     occurring = symbols & set(read)
     if kinds == {"parameter"}:
         return bool(occurring)
     return not symbols or any(problem.scalars.get(n, "name") != "parameter" for n in occurring)
+
+
+def _has_total(problem: Problem, names: Collection[str]) -> bool:
+    return any(name in problem.names and problem.names[name].is_ == "total" for name in names)
 
 
 def _is_closed(meaning: Meaning, closed: Collection[str]) -> bool:

@@ -2,7 +2,7 @@
 
 from derivations.liang2016_formation.control import V, V_i, control, e, s, stiffness, tau
 from derivations.liang2016_formation.model import A, Q, dq
-from derivations.liang2016_formation.symbols import K_o, K_q, K_v, beta, fleet, q, study, u_d
+from derivations.liang2016_formation.symbols import K_o, K_q, K_v, beta, fleet, omega, q, study, u_d
 from symctrl import conforms, equal
 from symctrl.statements import nonzero, positive
 from symctrl.vectors import absolute, det, diagonal, eye, inverse, kron, sgn, stack
@@ -31,6 +31,12 @@ def A_is_invertible(i):
 def Q_is_invertible(i):
     """The determinant of Q is not zero."""
     return nonzero(det(Q(i)))
+
+
+@study.claimed("after (1)")
+def omega_from_rate(i):
+    """The angular velocity is Q times the rate of the vector part."""
+    return equal(omega[i], Q(i) @ dq(i))
 
 
 @study.printed("(5)", using=[A_is_invertible])

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from derivations.liang2016_formation.chart import Lambda, on_a_path, ones, own
 from derivations.liang2016_formation.conclusion import V_2
 from derivations.liang2016_formation.control import V, e, s, tau
 from derivations.liang2016_formation.model import Q, dq
-from derivations.liang2016_formation.rate import closed_loop_corrected, d, quadratic_form
+from derivations.liang2016_formation.rate import closed_loop_corrected, d, omega_from_rate, quadratic_form
 from derivations.liang2016_formation.symbols import (
     K_o,
     K_q,
@@ -26,12 +27,10 @@ from symctrl import (
     bounded,
     claim,
     equal,
-    exists,
     summable,
     tends,
-    undefined,
 )
-from symctrl.vectors import absolute, power, stack
+from symctrl.vectors import absolute, power
 
 i, j = fleet.node, fleet.neighbour
 
@@ -91,46 +90,6 @@ def lemma_2_of_the_function():
 @study.argument(lemma_2_of_the_function)
 def by_uniform_continuity(run):
     run.barbalat(f_t, of=power(absolute(f_t), p_t), power=p_t)
-
-
-Lambda = study.gain("Lambda", unit="1", tex=r"\Lambda")  # an upper bound of the Laplacian's eigenvalues
-INERTIA = [[100, 0, 0], [0, 100, 0], [0, 0, 100]]  # of a counterexample
-
-
-@study.claimed("after (1)")
-def omega_from_rate(i):
-    """The angular velocity is Q times the rate of the vector part."""
-    return equal(omega[i], Q(i) @ dq(i))
-
-
-@study.printed(
-    "after (3)",
-    reading="the assumption q0 != 0 takes nothing away: the loop is defined for every attitude",
-    finding={
-        "refuted": "A craft that has turned by half a turn has q0 = 0: there the law divides by zero. The "
-        "assumption is one about the trajectory, which the theorem must make or show."
-    },
-)
-def chart_takes_nothing_away():
-    """From every attitude with a norm of one the closed loop has a solution for all time."""
-    return claim(then=[exists()])
-
-
-@study.counterexample(chart_takes_nothing_away)
-def half_a_turn():
-    return undefined(on_a_path({"q": [0, 0, 1], "q0": 0}, {"q": [0, 0, 1], "q0": 0}), graph="path:2")
-
-
-def on_a_path(first, second):
-    """Two craft at rest, with these attitudes."""
-    at_rest = {"omega": [0, 0, 0], "u_d": [0, 0, 0], "J": INERTIA}
-    values = {f"{name}.1": value for name, value in (at_rest | first).items()}
-    values |= {f"{name}.2": value for name, value in (at_rest | second).items()}
-    return values | {"u_bar": 1, "alpha": "0.01", "J_0": INERTIA}
-
-
-def ones():
-    return stack(1, 1, 1)
 
 
 @study.printed(
@@ -209,11 +168,6 @@ def synchronisation():
         ],
         free=[d],
     )
-
-
-def own(i):
-    """The sum over the neighbours of the differences of the rates: L dq."""
-    return fleet.sum(j, dq(i) - dq(j))
 
 
 @study.argument(synchronisation)

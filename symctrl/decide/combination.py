@@ -48,7 +48,7 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     """
     if known.times is not None:
         return _scaled_entry(session, value, strict, known, [known.times])
-    if session.totals:
+    if session.totals.keys() & {k for q in value.values() for k in session.domain.field.occurring(q)}:
         of_sums = None if strict else terms_of_totals(session, value)
         return None if of_sums is None else {"terms": of_sums}
     terms = terms_of(session, value, strict, known)

@@ -63,7 +63,7 @@ def by_programme(
 def weights_of(
     columns: Sequence[Column], target: Column, cost: Sequence[float]
 ) -> list[tuple[int, Fraction]] | None:
-    """Exact positive weights with which columns add up to the target, by number; None where there are none."""
+    """Exact positive weights with which columns add up to the target, by number; None where none do."""
     rows = {row: n for n, row in enumerate({row: None for column in (*columns, target) for row in column})}
     if not columns or len(rows) > MAX_MONOMIALS:
         return None

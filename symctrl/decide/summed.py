@@ -22,7 +22,7 @@ MAX_FACTORS = 2  # positive constants that an assumption is taken times
 
 
 def terms_of_totals(session: Session, value: Exact) -> list[Term] | None:
-    """The terms of a combination of assumed sums that is the value, for every graph; None if none is found."""
+    """The terms of a combination of assumed sums that is the value, for every graph; None if none is."""
     if vanishes(session, value):
         return []
     domain = session.domain

@@ -127,7 +127,8 @@ def set_of(chain: Chain, word: str, zero: bool, names: Sequence[str], time: str 
             if known and chain.attempt("carries", table | smaller):
                 return True
     if len(names) > 1 and word != "enters":
-        return all([set_of(chain, word, zero, [name], time) for name in names])
+        met = [set_of(chain, word, zero, [name], time) for name in names]
+        return all(met)
     if word == "stays" and not zero and chain.attempt("keeps", {"g": names[0]}):
         return True
     return chain.fail(word, f"no smaller set is known of which {word} is said")

@@ -19,8 +19,8 @@ from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
 from symctrl.rules.algebra import rate_over
 from symctrl.rules.loop import Loop
-from symctrl.rules.tapes import arguments
 from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.rules.tapes import arguments
 from symctrl.text import text
 from symctrl.theorem import Line
 

@@ -11,7 +11,7 @@ from symctrl.rules.ways import ensure
 
 
 def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
-    """Those arguments (`kind key`) that are not known to stay inside, nor can be carried over, as quantities."""
+    """Those arguments (`kind key`), as quantities, that are not known to stay inside by what is known."""
     open_ = {edge.split(" ", 1)[1] for edge in wanted if not chain.at.edge_is_known(*edge.split(" ", 1))}
     found: list[str] = []
     for tape in arguments(list(chain.loop.collector.listings.values())):

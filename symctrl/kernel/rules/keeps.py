@@ -12,7 +12,7 @@ for it is continuous along the solution.
 Theorem (`keeps_sign`). Let g be continuous, and not zero at any state of the domain at which the field has a
 value. A solution with g > 0 at the beginning has g > 0 for all its time.
 
-Proof. The field has a value all along a solution, so that g is not zero there: the intermediate value theorem.
+Proof. The field has a value all along a solution, so that g is not zero there: intermediate values.
 
 Source: comparison; Nagumo's theorem in the form of Blanchini, Automatica 35(11), 1999.
 """
