@@ -143,6 +143,10 @@ class Collector:
                 n: replace(made.names[n], of=(listing, k)) for k, n in enumerate(shown) if n in made.names
             }
             return replace(made, names=names)
+        if record.body.op == "symbol":
+            shown = self._scalars_of_symbol(record.body)
+            new = {name: (listing, k) for k, name in enumerate(shown) if name in made.motion}
+            return replace(made, motion={**made.motion, **new})
         inner = record.body.args[0] if record.body.op == "deferred" else None
         if not isinstance(inner, Named | Rate):
             raise StudyError(f"using: {used.text()} is the rate of an expression without a name")
@@ -157,7 +161,7 @@ class Collector:
 
     def _defined(self, made: Problem, used: Equal) -> Problem:
         """The problem in which a symbol is a name for the right side of a proved equation."""
-        shown = component_names(used.left.args[0].replace(".i", ".*"), used.left.shape, used.left.args[2])
+        shown = self._scalars_of_symbol(used.left)
         listing = f"using {used.left.args[0]}"
         made = self._grown(made, listing, used.right)
         names = {name: Meaning("value", (listing, k)) for k, name in enumerate(shown)}
@@ -193,6 +197,10 @@ class Collector:
         base, _, node = record.label.partition(".")
         shown = base if isinstance(record, Named) else self._label(base)
         return list(component_names(f"{shown}.*" if node else shown, expr.shape))
+
+    @staticmethod
+    def _scalars_of_symbol(x: Expr) -> list[str]:
+        return list(component_names(x.args[0].replace(".i", ".*"), x.shape, x.args[2]))
 
     def _reach(self, listing: str) -> None:
         """Add every motion that the evaluation of the listing needs."""

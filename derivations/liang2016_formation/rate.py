@@ -39,6 +39,12 @@ def omega_from_rate(i):
     return equal(omega[i], Q(i) @ dq(i))
 
 
+@study.claimed("after (1)")
+def rate_of_scalar_part(i):
+    """The norm stays one: q0 times the rate of q0 is -q'dq."""
+    return equal(study.rate(q[i].scalar), -q[i].vector.T @ dq(i) / q[i].scalar)
+
+
 @study.printed("(5)", using=[A_is_invertible])
 def rate_of_V_i(i):
     """The rate of V_i before the dynamics are put in."""

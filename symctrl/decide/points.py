@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
@@ -17,8 +18,10 @@ from symctrl.decide.solve import NoPoint, Sphere, Way, evaluated, ways
 from symctrl.domains.fraction import FractionDomain, NoExactValue
 from symctrl.graph import interpret
 from symctrl.problem import Assumption, Problem, split, star
+from symctrl.reach import Reach
 
 TRIES_PER_POINT = 60
+DRAWS = 60  # of constants
 MOST_SHIFTS = 12
 
 
@@ -28,7 +31,8 @@ class Recipe:
 
     ways: to meet the assumed equations. definite: symbols of matrices, with their sizes. root: powers of this
     degree keep roots rational. positive, nonnegative: symbols that are assumed to be. between: the least and
-    the greatest value of a symbol, where numbers bound it.
+    the greatest value of a symbol, where numbers bound it. constant: the assumptions about parameters that
+    belong to no node.
     """
 
     problem: Problem
@@ -38,6 +42,7 @@ class Recipe:
     nonnegative: frozenset[str]
     root: int
     between: Mapping[str, tuple[Fraction | None, Fraction | None]]
+    constant: tuple[Assumption, ...]
 
 
 def recipe(problem: Problem) -> Recipe:
@@ -61,6 +66,7 @@ def recipe(problem: Problem) -> Recipe:
         frozenset(nonnegative),
         _root_degree(problem),
         _between(problem),
+        tuple(a for a in problem.given if a.kind != "zero" and _is_constant(problem, a)),
     )
 
 
@@ -108,8 +114,9 @@ def _draw(
     made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int, attempt: int
 ) -> dict[str, Fraction]:
     at = neighbours(edges)
+    constants = _constants(made, edges, generator, height, attempt)
     values = {
-        name: _number(made, star(name) if edges else name, generator, height, attempt)
+        name: constants.get(name, _number(made, star(name) if edges else name, generator, height, attempt))
         for name in free_names(made.problem, at)
     }
     for node in at or ("",):
@@ -122,7 +129,7 @@ def _draw(
                 values[local(name)] = entry
         for step in reversed(generator.choice(made.ways)):
             if isinstance(step, Sphere):
-                drawn = _on_sphere(len(step.names), generator, height)
+                drawn = _on_sphere(len(step.names), generator, 0 if _rests(attempt) else height)
                 values.update({local(n): step.radius * x for n, x in zip(step.names, drawn, strict=True)})
             else:
                 known = {
@@ -134,12 +141,41 @@ def _draw(
     return values
 
 
+def _constants(
+    made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int, attempt: int
+) -> dict[str, Fraction]:
+    """Parameters that belong to no node, drawn again until what is assumed of these alone holds."""
+    names = [n for n, kind in made.problem.scalars.items() if kind == "parameter" and ".*" not in n]
+    values: dict[str, Fraction] = {}
+    for more in range(DRAWS if made.constant else 0):
+        values = {name: _number(made, name, generator, height, attempt + more) for name in names}
+        place = Place(values, edges)
+        at = evaluation(made.problem, place, FractionDomain())
+        with suppress(NoExactValue, ZeroDivisionError):
+            if all(_holds_at(place, a, [at.output(of, {}) for of in a.of]) for a in made.constant):
+                break
+    return values
+
+
+def _is_constant(problem: Problem, assumption: Assumption) -> bool:
+    reach = Reach(problem)
+    for listing, _ in assumption.of:
+        reach.listing(listing)
+    free = [name for name in reach.read if name in problem.scalars]
+    return all(problem.scalars[name] == "parameter" and ".*" not in name for name in free) and not any(
+        problem.names[name].is_ in ("sum", "total", "rate") for name in reach.read if name in problem.names
+    )
+
+
 def _number(made: Recipe, name: str, generator: random.Random, height: int, attempt: int) -> Fraction:
     """A small rational; every other attempt a power that keeps roots rational.
 
-    As attempts fail, what is positive grows and what is not shrinks, which most bounds want.
+    As attempts fail, what is positive grows and what is not shrinks, which most bounds want; now and then all
+    that may be zero is.
     """
     low, high = made.between.get(name, (None, None))
+    if _rests(attempt) and name not in made.positive and (low or 0) <= 0 <= (high or 0):
+        return Fraction(0)
     if low is not None and high is not None:
         part = generator.choice((0, 1, Fraction(generator.randint(0, height), height)))
         return low + (high - low) * part
@@ -157,9 +193,16 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
     return value / Fraction(2) ** generator.choice((shift, generator.randint(0, shift)))
 
 
+def _rests(attempt: int) -> bool:
+    return attempt % 6 == 5
+
+
 def _on_sphere(count: int, generator: random.Random, height: int) -> list[Fraction]:
     """A rational point of the unit sphere by stereographic projection; the last coordinate is never -1."""
-    t = [Fraction(generator.randint(-height, height), generator.randint(1, height)) for _ in range(count - 1)]
+    t = [
+        Fraction(generator.randint(-height, height), generator.randint(1, max(height, 1)))
+        for _ in range(count - 1)
+    ]
     square = sum((x * x for x in t), Fraction(0))
     return [2 * x / (1 + square) for x in t] + [(1 - square) / (1 + square)]
 

@@ -72,7 +72,8 @@ class SymbolSums:
         value = walk.free(name)
         assert self.replay is not None
         k = self.replay.free[name]
-        if self.totals.setdefault(k, (key, primes, law)) != (key, primes, law):
+        made = (key, primes, law if primes else None)  # only a derivative depends on the law
+        if self.totals.setdefault(k, made) != made:
             raise Declined(f"{name} is read under two laws")
         return value
 

@@ -5,7 +5,7 @@ from fractions import Fraction
 import pytest
 
 from symctrl import claim
-from symctrl.counterexample import along, at, enclosed, leaves, t, undefined, unstable
+from symctrl.counterexample import along, at, enclosed, leaves, t, unstable
 from symctrl.facts import (
     apart,
     bounded,
@@ -294,28 +294,6 @@ class TestBoundaries:
     def test_a_kink(self):
         study, x = systems.scalar(lambda x: -x - 1)
         refused("rate of |.|", study, [stays(x + absolute(x) >= 0)], leaves(x=0))
-
-
-class TestEdges:
-    def test_a_division_by_zero(self):
-        study, x, *_ = systems.quotient()
-        found = refuted(study, [tends(x)], undefined(x=1, y=2, a=2))
-        assert found.certificate["proof"]["then"] == "exists"
-
-    def test_a_root_of_a_negative_number(self):
-        study, x, *_ = systems.quotient()
-        refuted(study, [tends(x)], undefined(x=1, y=-10, a=2))
-
-    def test_where_there_is_none(self):
-        study, x, y, _ = systems.quotient()
-        refused("has a value here", study, [tends(x)], undefined(x=1, y=1, a=2))
-        refused("'a > 1'", study, [tends(x)], undefined(x=1, y=1, a=1))
-        refused("'y <= 1'", study, [tends(x)], undefined(x=1, y=2, a=2), given=[initially(y <= 1)])
-        refused("conclusion tends", study, [tends(x)], undefined(x=1, y=2, a=2), tends(x))
-
-    def test_what_the_field_does_not_need(self):
-        study, x = systems.scalar(lambda x: -x)
-        refused("has a value here", study, [tends(x / x)], undefined(x=0))
 
 
 class TestInstability:
