@@ -19,6 +19,7 @@ from collections.abc import Callable, Collection
 from typing import Any
 
 from symctrl.kernel.certificate import Declined, Invalid, fields, typed
+from symctrl.kernel.closure import Reach
 from symctrl.kernel.evaluation import Evaluation, Level
 from symctrl.kernel.field import Value
 from symctrl.kernel.generators import letters
@@ -72,10 +73,20 @@ class SymbolSums:
         value = walk.free(name)
         assert self.replay is not None
         k = self.replay.free[name]
-        made = (key, primes, law if primes else None)  # only a derivative depends on the law
+        made = (key, primes, law if primes or self._depends_on_law(walk.statement, key, law) else None)
         if self.totals.setdefault(k, made) != made:
             raise Declined(f"{name} is read under two laws")
         return value
+
+    def _depends_on_law(self, statement: Statement, key: str, law: str | None) -> bool:
+        """Does the term of the total read an input, or a rate?"""
+        reach = Reach(statement)
+        reach.listing(statement.names[key].of[0], "ij", 0, law)
+        return any(
+            statement.scalars.get(name) == "input"
+            or (name in statement.names and statement.names[name].kind == "rate")
+            for name in reach.read
+        )
 
     def _summed(self, value: Value, node: str) -> Value:
         """The sum over the neighbours of a node of a value that belongs to the node and its neighbour."""

@@ -343,7 +343,7 @@ def test_a_total_under_two_laws_is_declined():
                "r2": {"is": "rate", "of": ["V", 0], "law": "two"}},
         conditions=[],
     )  # fmt: skip
-    assert explain(one) == "declined: T is read under two laws"
+    assert explain(one) == "declined: T' is read under two laws"
 
 
 def test_a_claim_may_speak_of_a_node_and_its_neighbour():
