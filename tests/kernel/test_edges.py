@@ -1,4 +1,4 @@
-"""What the field divides by is not zero along a solution: of which quantities it is said, what is kept by it."""
+"""What the field divides by is not zero along a solution, and the sign that is kept by this."""
 
 import pytest
 
