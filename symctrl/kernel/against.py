@@ -28,7 +28,7 @@ from typing import Any
 
 from symctrl.kernel.boundary import leaves
 from symctrl.kernel.certificate import Declined, Invalid, fields, natural, rational, several
-from symctrl.kernel.closure import Reach
+from symctrl.kernel.closure import rates_exist_where_defined
 from symctrl.kernel.enclosed import enclosed
 from symctrl.kernel.instability import rank, unstable
 from symctrl.kernel.interval import Undecided, Undefined
@@ -47,12 +47,11 @@ from symctrl.kernel.place import (
 )
 from symctrl.kernel.spots import Spot
 from symctrl.kernel.traits import NOT_AFFINE, SMOOTH
-from symctrl.kernel.trajectory import ENTIRE, along
+from symctrl.kernel.trajectory import along
 from symctrl.kernel.values import Condition, Sentence, Statement
 from symctrl.kernel.witness import BITS
 
 EXISTS = Sentence("exists", ())
-SMOOTH_WHERE_DEFINED = ENTIRE | {"DIV", "INV"}  # a rate has a value where its formula has, and only there
 OWN = {
     "at": ("values", "switches"),
     "leaves": ("values",),
@@ -199,11 +198,7 @@ def undefined(
     require_momentary(statement)
     if statement.uses:
         raise Declined("a formula that a proved statement replaced may have had a value")
-    law, reach = statement.claim.law, Reach(statement)
-    for name, _ in statement.motion.values():
-        reach.listing(name, "i", 0, law)
-    rated = {name for name, level, _ in reach.done if level}
-    if not {step.op for name in rated for step in statement.listings[name].code} <= SMOOTH_WHERE_DEFINED:
+    if not rates_exist_where_defined(statement, statement.claim.law):
         raise Declined("the field reads rates, which may have a value where their formula has none")
     site = Site(statement, place, bits)
     site.require_given()

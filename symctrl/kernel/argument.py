@@ -20,7 +20,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
 from symctrl.kernel.certificate import Invalid, at_node, split_name
-from symctrl.kernel.closure import Reach
+from symctrl.kernel.closure import Reach, rates_exist_where_defined
 from symctrl.kernel.compose import composed, rate_listing, rates_of
 from symctrl.kernel.evaluation import Evaluation
 from symctrl.kernel.traits import LIPSCHITZ, NOT_AFFINE, Reading, Traits, reading
@@ -293,12 +293,13 @@ class Argument:
 
         An equation g = 0 is kept where g' = c g for a c that is continuous in the state, not only where g =
         0: then g is exp(int c) times its value at the beginning. cofactors: c by the quantity of the
-        equation. edges: quantities that the field divides by, or takes logarithms of: it has a value all
-        along a solution.
+        equation. edges: quantities that the field divides by: it has a value all along a solution.
         """
-        strict = {key for kind, _, key in (e.partition(" ") for e in self.edges()) if kind in STRICT}
+        divisors = {key for kind, _, key in (e.partition(" ") for e in self.edges()) if kind == "nonzero"}
+        if edges and not rates_exist_where_defined(self.statement, self.law):
+            divisors = set()
         for edge in edges:
-            known = self.traits(edge).key in strict
+            known = self.traits(edge).key in divisors
             self.require("the field has no value where it is zero", known, f"it does not divide by {edge}")
         apart = [Assumption("nonzero", ((edge, 0),), text=f"{edge} != 0", about=LEMMA) for edge in edges]
         self.available = list(apart)

@@ -13,6 +13,9 @@ from collections.abc import Collection
 from symctrl.kernel.certificate import Declined, Invalid, at_node, per_node, split_name
 from symctrl.kernel.values import Meaning, Ref, Statement
 
+ENTIRE = frozenset(
+    ("INPUT", "CONST", "ADD", "SUB", "MUL", "NEG", "SQ", "TWICE", "SIN", "COS", "EXP", "TANH", "ATAN")
+)
 MAX_LEVEL = 4
 MAX_DEPTH = 100
 Visit = tuple[str, int, str | None]  # listing, level, law
@@ -41,6 +44,19 @@ def require_closed(statement: Statement) -> None:
         idle = sorted(map(str, all_of - used))
         if idle:
             raise Invalid(f"the {what} {idle[0][:80]} is not used by the claim or an assumption")
+
+
+def rates_exist_where_defined(statement: Statement, law: str | None) -> bool:
+    """Does every rate that the field reads have a value exactly where its formula has one?
+
+    Relies on: a rate of what is made of smooth operations and divisions exists where that is defined, and
+    nowhere else. A rate of a root or of |.| may exist where the formula divides by zero.
+    """
+    reach = Reach(statement)
+    for name, _ in statement.motion.values():
+        reach.listing(name, "i", 0, law)
+    rated = {name for name, level, _ in reach.done if level}
+    return {step.op for name in rated for step in statement.listings[name].code} <= ENTIRE | {"DIV", "INV"}
 
 
 def effective_law(own: str | None, outer: str | None) -> str | None:

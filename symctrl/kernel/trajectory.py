@@ -26,7 +26,7 @@ from typing import Any
 
 from symctrl.kernel.argument import OBLIGATION, Argument, Judge, single
 from symctrl.kernel.certificate import Declined, Invalid, fields, rational, split_name, typed
-from symctrl.kernel.closure import Reach
+from symctrl.kernel.closure import ENTIRE, Reach
 from symctrl.kernel.compose import rates_of
 from symctrl.kernel.contradiction import contradict
 from symctrl.kernel.enclosure import Enclosure
@@ -40,9 +40,6 @@ from symctrl.kernel.values import Assumption, Listing, Meaning, Ref, Sentence, S
 from symctrl.kernel.witness import BITS, _holds
 
 CLOCK = "clock"
-ENTIRE = frozenset(
-    ("INPUT", "CONST", "ADD", "SUB", "MUL", "NEG", "SQ", "TWICE", "SIN", "COS", "EXP", "TANH", "ATAN")
-)
 KINKED = frozenset(("FABS", "FMIN", "FMAX", "SIGN"))
 JUMPING = frozenset(("FLOOR", "CEIL", "NOT", "LT", "LE", "EQ", "NE", "AND", "OR", "IF_ELSE_ZERO", "ATAN2"))
 FORMULAS = {"zero": ("equal", ("g", "0")), "nonzero": ("positive", "g g *"), "positive": ("positive", "g")}

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 from symctrl.certify import certificate
 from symctrl.expr import Expr, lift
 from symctrl.graph import Tape
-from symctrl.kernel.argument import STRICT, Argument
+from symctrl.kernel.argument import Argument
 from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.check import check_text
+from symctrl.kernel.closure import rates_exist_where_defined
 from symctrl.kernel.rules.roles import Roles
 from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
@@ -79,9 +80,10 @@ class Chain:
         self.outcomes = self.seeker.outcomes
 
     def _edges(self) -> list[str]:
-        """What the field divides by, or takes logarithms of, that is not made of parameters alone."""
-        divided = (edge.partition(" ") for edge in self.at.edges())
-        strict = {key for kind, _, key in divided if kind in STRICT}
+        """What the field divides by, and is not made of parameters alone."""
+        if not rates_exist_where_defined(self.at.statement, self.at.law):
+            return []
+        strict = {key for kind, _, key in (e.partition(" ") for e in self.at.edges()) if kind == "nonzero"}
         named = dict.fromkeys(map(self.q, arguments(list(self.loop.collector.listings.values()))))
         return [q for q in named if self.at.traits(q).key in strict and not self.at.is_constant(q)]
 

@@ -35,6 +35,7 @@ REFUTED = {
     "Pi_definite_at_the_gains[star:8]": "beta lambda_max = 0.3 * 8 > 1.6",
     "Pi_definite_at_the_gains[complete:8]": "beta lambda_max = 0.3 * 8 > 1.6",
     "tanh_in_the_place_of_sgn": "tanh is below one",
+    "chart_takes_nothing_away": "the law divides by zero after half a turn",
     "lemma_2": "a constant",
     "theorem_1": "opposite quaternions at rest",
 }

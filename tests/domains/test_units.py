@@ -103,9 +103,7 @@ def test_gains_get_the_unit_that_the_equations_force() -> None:
 
 def test_units_are_found_through_powers_roots_and_other_unknowns() -> None:
     k, m, x, gamma = scalars("k", "m", "x", "gamma")
-    result = judge(
-        tape([ca.tanh(ca.sqrt(k * x) + gamma), k / m, x], [k, m, x, gamma]), {"x": "m"}, [(1, 2)]
-    )
+    result = judge(tape([ca.tanh(ca.sqrt(k * x) + gamma), k / m, x], [k, m, x, gamma]), {"x": "m"}, [(1, 2)])
     assert result.inferred == {"k": "m^-1", "m": "m^-2", "gamma": "1"}
 
 

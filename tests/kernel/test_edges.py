@@ -11,7 +11,7 @@ from tests.kernel.test_argument import argument, available, ran
         ("1 x /", "x", True),
         ("1 x x * 1 - /", "x", False),
         ("1 x x * 1 - /", "x x * 1 -", True),
-        ("x -1/2 ^", "x", True),
+        ("x -1/2 ^", "x", False),
         ("x 1/2 ^", "x", False),
         ("x abs", "x abs", False),
         ("x", "x", False),

@@ -316,9 +316,7 @@ def kinematics_with_a_wrong_sign():
     return theorem(study, [bounded(q.vector)], lambda run: run.falls(w.T @ w))
 
 
-@pytest.mark.parametrize(
-    ("build", "role", "reason"), FALSE, ids=lambda x: x.__name__ if callable(x) else ""
-)
+@pytest.mark.parametrize(("build", "role", "reason"), FALSE, ids=lambda x: x.__name__ if callable(x) else "")
 def test_a_false_theorem_is_not_proved(build, role, reason):
     assert_open(build(), role, reason)
 

@@ -239,8 +239,6 @@ def boundary_pushed_by_a_signal():
     return theorem(study, [stays(x >= 0)], lambda run: run.keeps(x, a=1 - d / x))
 
 
-@pytest.mark.parametrize(
-    ("build", "role", "reason"), FALSE, ids=lambda x: x.__name__ if callable(x) else ""
-)
+@pytest.mark.parametrize(("build", "role", "reason"), FALSE, ids=lambda x: x.__name__ if callable(x) else "")
 def test_a_false_theorem_is_not_proved(build, role, reason):
     assert_open(build(), role, reason)

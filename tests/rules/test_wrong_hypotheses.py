@@ -5,9 +5,9 @@ The sentence below each name is a solution for which the theorem is wrong.
 
 import pytest
 
-from symctrl import along_trajectory, apart, bounded, positive_definite, summable, tends
+from symctrl import along_trajectory, apart, bounded, initially, positive_definite, summable, tends
 from symctrl.expr import lift
-from symctrl.vectors import block, sgn
+from symctrl.vectors import block, power, sgn
 from symctrl.written import StudyError
 from tests.rules.theorem_rows import assert_open, collector, decided, states, theorem
 
@@ -144,6 +144,26 @@ def limit_at_which_an_assumption_has_no_value():
 @pytest.mark.parametrize(("build", "role", "reason"), WRONG, ids=lambda x: getattr(x, "__name__", ""))
 def test_a_false_theorem_is_undecided(build, role, reason):
     assert_open(build(), role, reason)
+
+
+@wrong("e is positive", "line 2, holds: e is positive: the value is 0 <= 0")
+def power_of_a_gain_is_taken_for_a_division():
+    """x = 0, y = t, z = exp(-t): x^p has a value at x = 0, for p > 0."""
+    study, x, y, z = states("x", "y", "z")
+    p = study.gain("p")
+    study.motion(x, lift(0))
+    study.motion(y, 1 - sgn(x))
+    study.motion(z, -z - power(x, p) * z)
+
+    def lines(run):
+        run.keeps(x, a=0)
+        run.holds(x > 0)
+        run.falls(x**2)
+        run.falls(y**2)
+        run.falls(z**2)
+        run.exists()
+
+    return theorem(study, [bounded(y)], lines, [initially(x >= 0)])
 
 
 def test_a_fact_that_jumps_cannot_be_supposed():
