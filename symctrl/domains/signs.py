@@ -37,8 +37,8 @@ class Signs:
             ratio = _ratio(p, fact)
             if ratio is None:
                 continue
-            if ratio > 0 and (kind == "positive" or best is None):
-                best = kind
+            if ratio > 0:
+                best = kind if best is None or kind == "positive" else _both(best, kind)
             if ratio < 0 and kind in ("positive", "nonzero") and best is None:
                 best = "nonzero"
         if best is None and (self._by_terms(-p) == "positive" or self._is_nonzero_monomial(p)):

@@ -51,7 +51,7 @@ def nonzero_because_the_field_divides_by_it():
     study, x, y = states("x", "y")
     c = study.parameter("c")
     study.motion(x, 1 - x)
-    study.motion(y, -y * (1 + 1 / x**2))
+    study.motion(y, -y * (1 + 1 / x))
 
     def lines(run):
         run.holds(nonzero(x))
