@@ -26,7 +26,8 @@ class Decided:
 
     claim: what the function returned, None where it does not conform. using: the claims of the statements
     that it uses. of_graph: the claim speaks of the instance's graph. below: the rows of a theorem's
-    arguments; steps: those that the proof consists of; unmet: those that are missing.
+    arguments; steps: those that the proof consists of; unmet: those that are missing. shown: the study's
+    assumptions about the trajectory that the proof shows.
     """
 
     claim: Any
@@ -38,6 +39,7 @@ class Decided:
     steps: tuple[str, ...] = ()
     unmet: tuple[str, ...] = ()
     twins: Twins | None = None
+    shown: tuple[str, ...] = ()
 
     @property
     def at_values(self) -> bool:
@@ -74,7 +76,16 @@ def _theorem(
     made = theorems.decide(study, claim, entry.id, entry.equation, using, store)
     part = Part(made.problem)
     return Decided(
-        claim, (part,), made.verdict, using, of_graph, made.rows, made.rests_on, made.unmet, made.twins
+        claim,
+        (part,),
+        made.verdict,
+        using,
+        of_graph,
+        made.rows,
+        made.rests_on,
+        made.unmet,
+        made.twins,
+        made.shown,
     )
 
 

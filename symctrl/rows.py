@@ -69,6 +69,7 @@ class Row:
     blocked_by: str | None = None
     units: Units | None = None
     twins: Twins | None = None
+    shown: tuple[str, ...] = ()  # assumptions about the trajectory, of what it rests on, that it shows
     witness: Mapping[str, Any] | None = None
     certificate: Mapping[str, Any] | None = None
     numeric: Numeric | None = None

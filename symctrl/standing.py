@@ -65,45 +65,54 @@ def settle(study: Study, rows: Sequence[Row], complete: bool) -> list[Row]:
     """The rows with `stands` and `settled`. complete: all rows of the study are here. Raises StudyError."""
     known = {row.id: row for row in rows}
     standing: dict[str, bool] = {}
-    conditional: dict[str, bool] = {}
     for row in rows:
-        _stands(row.id, known, standing, conditional, complete)
-    done = [replace(r, stands=standing[r.id], conditional=conditional[r.id]) for r in rows]
+        _stands(row.id, known, standing, complete)
     inherited = {row.id: _inherited(row.id, known, frozenset()) for row in rows}
+    done = [
+        replace(r, stands=standing[r.id], conditional=_speaks_of_the_trajectory(inherited[r.id]))
+        for r in rows
+    ]
     return [
         replace(row, given=inherited[row.id], settled=_settled(study, row, done, complete)) for row in done
     ]
 
 
+def _speaks_of_the_trajectory(given: Sequence[Given]) -> bool:
+    return any(one.about == "trajectory" for one in given)
+
+
 def _inherited(id_: str, known: dict[str, Row], above: frozenset[str]) -> tuple[Given, ...]:
-    """The row's assumptions and, after them, those of everything that it rests on, each once."""
-    found = dict.fromkeys(known[id_].given)
-    for below in known[id_].rests_on:
+    """The row's assumptions and, after them, those of everything that it rests on, each once; without those
+    about the trajectory that its argument shows.
+    """
+    row = known[id_]
+    found = dict.fromkeys(row.given)
+    for below in row.rests_on:
         at = below if below in known else next((k for k in known if k.partition("[")[0] == below), None)
         if at is not None and at not in above:
-            found |= dict.fromkeys(_inherited(at, known, above | {id_}))
+            more = _inherited(at, known, above | {id_})
+            found |= dict.fromkeys(g for g in more if g.about != "trajectory" or g.text not in row.shown)
     return tuple(found)
 
 
 def _stands(
-    id_: str, known: dict[str, Row], standing: dict[str, bool], conditional: dict[str, bool], complete: bool
+    id_: str, known: dict[str, Row], standing: dict[str, bool], complete: bool
 ) -> None:
     if id_ in standing:
         return
     row = known[id_]
-    standing[id_], conditional[id_] = False, row.conditional
+    standing[id_] = False
     own = row.verdict == "proved" and row.point_known and all(c.by is not None for c in row.conditions)
     for below in row.rests_on:
         at = below if below in known else next((k for k in known if k.partition("[")[0] == below), None)
         if at is None:
             own = own and not complete
             continue
-        _stands(at, known, standing, conditional, complete)
+        _stands(at, known, standing, complete)
         corrected = [r.id for r in known.values() if r.corrects == below]
         for other in corrected:
-            _stands(other, known, standing, conditional, complete)
+            _stands(other, known, standing, complete)
         own = own and (standing[at] or any(standing[c] for c in corrected))
-        conditional[id_] = conditional[id_] or conditional[at]
     standing[id_] = own
 
 

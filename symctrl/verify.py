@@ -133,6 +133,7 @@ def _made(study: Study, entry: Entry, id_: str, decided: Decided) -> Row:
         rests_on=(*_rests_on(study, entry, decided.parts), *decided.steps),
         unmet=decided.unmet,
         units=units_of(study, decided.parts[0].problem) if decided.parts else None,
+        shown=decided.shown,
         witness=verdict.witness,
         certificate=verdict.certificate,
         residual=verdict.residual,

@@ -163,7 +163,7 @@ def candidates(
 
 def _times_squares(session: Session, p: Poly, products: Sequence[Product], wide: bool) -> Iterator[Candidate]:
     """Each product times each square of no higher degree than p's."""
-    one, low = session.domain.field.polynomial(1), p.total_degree() + 2
+    one, low = session.domain.field.polynomial(1), p.total_degree() + (2 if wide else 0)
     own = _squares(session, p, wide)
     for product, given in products:
         for square in own:

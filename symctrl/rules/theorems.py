@@ -24,6 +24,7 @@ from symctrl.rules.planners import PLANNERS
 from symctrl.rules.seeker import Outcome, Seeker
 from symctrl.rules.twins import twins
 from symctrl.rules.vacuous import contradictory, refuse_assumed_conclusions
+from symctrl.statements import Nonzero
 from symctrl.theorem import ArgumentEntry, Theorem
 from symctrl.verdict import Condition, Verdict
 from symctrl.verdict import Outcome as Verdicts
@@ -38,7 +39,9 @@ PHRASES = {"exists": "solutions exist for all time"}
 
 @dataclass(frozen=True)
 class Tried:
-    """An argument, decided. open_: conclusions that it does not give. certificate: where it closes."""
+    """An argument, decided. open_: conclusions that it does not give. certificate: where it closes. shown:
+    the study's assumptions about the trajectory that it shows.
+    """
 
     entry: ArgumentEntry
     begin: tuple[Outcome, ...]
@@ -48,6 +51,7 @@ class Tried:
     certificate: dict[str, Any] | None = None
     refused: str | None = None
     ill_formed: str | None = None
+    shown: tuple[str, ...] = ()
 
     @property
     def closes(self) -> bool:
@@ -71,7 +75,9 @@ class Tried:
 
 @dataclass(frozen=True)
 class Decided:
-    """A theorem's problem, verdict, rows of its arguments, and what became of its twins."""
+    """A theorem's problem, verdict, rows of its arguments, what became of its twins, and the study's
+    assumptions about the trajectory that its argument shows.
+    """
 
     problem: Problem
     verdict: Verdict
@@ -79,6 +85,7 @@ class Decided:
     rests_on: tuple[str, ...] = ()
     unmet: tuple[str, ...] = ()
     twins: Twins | None = None
+    shown: tuple[str, ...] = ()
 
 
 def decide(
@@ -129,7 +136,7 @@ def _decided(study: Study, loop: Loop, id_: str, equation: str) -> Decided:
         steps = tuple(r.id for r in rows if r.id.startswith(prefix) and r.form == "step")
         laws = [law.name for law in loop.laws if loop.problem.laws]
         found = twins(study, theorem, id_, using, closing.entry, laws)
-        return Decided(loop.problem, verdict, rows, steps, (), found)
+        return Decided(loop.problem, verdict, rows, steps, (), found, closing.shown)
     if isinstance(refuted, Verdict):
         return Decided(loop.problem, refuted, rows)
     reasons = [f"{one.entry.id}: {one.why_not}" for one in tried] + refuted
@@ -151,6 +158,7 @@ def _written(made: Decided) -> dict[str, Any]:
         "rests_on": list(made.rests_on),
         "unmet": list(made.unmet),
         "twins": None if made.twins is None else [made.twins.tried, list(made.twins.still_true)],
+        "shown": list(made.shown),
     }
 
 
@@ -173,7 +181,8 @@ def _read(problem: Problem, kept: Mapping[str, Any]) -> Decided | None:
         for row in kept["rows"]
     )
     found = None if kept["twins"] is None else Twins(kept["twins"][0], tuple(kept["twins"][1]))
-    return Decided(problem, verdict, rows, tuple(kept["rests_on"]), tuple(kept["unmet"]), found)
+    rests_on, unmet, shown = (tuple(kept[name]) for name in ("rests_on", "unmet", "shown"))
+    return Decided(problem, verdict, rows, rests_on, unmet, found, shown)
 
 
 def conforming(loop: Loop, entry: ArgumentEntry) -> Tried:
@@ -201,7 +210,15 @@ def attempt(loop: Loop, entry: ArgumentEntry, thorough: bool = True) -> Tried:
     if refused is not None:
         return Tried(entry, begin, lines, open_, refused=refused)
     conditions = tuple(Condition(c["kind"], c["of"]) for c in made["statement"]["conditions"])
-    return Tried(entry, begin, lines, open_, conditions, made)
+    return Tried(entry, begin, lines, open_, conditions, made, shown=tuple(_shown(chain)))
+
+
+def _shown(chain: Chain) -> Iterator[str]:
+    """What the study assumes of the trajectory not to be zero, and is known to stay apart from it."""
+    for assumed in chain.loop.study.trajectory_assumptions():
+        claim = assumed.claim
+        if isinstance(claim, Nonzero) and chain.at.has("apart", chain.q(claim.expr)):
+            yield claim.text()
 
 
 def said(loop: Loop, sentence: Sentence) -> str:
