@@ -54,11 +54,13 @@ class Done:
 class Chain:
     """The state of an argument on its way: the loop, the facts, and the kernel's lines so far.
 
-    again: lines that may give more once more is known of their input, or that solutions exist.
+    again: lines that may give more once more is known of their input, or that solutions exist. hasty: it only
+    matters whether the argument closes.
     """
 
     loop: Loop
     seeker: Seeker
+    hasty: bool = False
     at: Argument = field(init=False)
     steps: list[Table] = field(default_factory=list)
     relations: Table = field(default_factory=dict)
@@ -124,13 +126,15 @@ class Chain:
 
     def run(self, rule: str, table: Mapping[str, Any]) -> bool:
         """Try a line with all its obligations, refuting where it can; its facts count if all are met."""
+        if self.hasty:
+            return self.attempt(rule, table) or self.fail(rule, "an obligation is not met")
         met = self._tried(rule, table, thorough=True)
         self.outcomes += self.seeker.outcomes
         return met
 
     def attempt(self, rule: str, table: Mapping[str, Any]) -> bool:
         """Try a line; one that fails leaves no trace."""
-        met = self._tried(rule, table, thorough=False)
+        met = self._tried(rule, table, thorough=False, brief=True)
         if met:
             self.outcomes += self.seeker.outcomes
         return met
@@ -139,7 +143,8 @@ class Chain:
         """The first of the tables that works; if none does, what the best of them lacks."""
         best, fewest = tables[0], None
         for table in tables:
-            if self.attempt(rule, table):
+            if self._tried(rule, table, thorough=False, brief=self.hasty):
+                self.outcomes += self.seeker.outcomes
                 return True
             unmet = sum(not outcome.met for outcome in self.seeker.outcomes)
             if fewest is None or unmet < fewest:
@@ -150,16 +155,19 @@ class Chain:
         self.outcomes.append(Outcome(role, False, reason))
         return False
 
-    def _tried(self, rule: str, table: Mapping[str, Any], thorough: bool) -> bool:
+    def _tried(self, rule: str, table: Mapping[str, Any], thorough: bool, brief: bool = False) -> bool:
         before = set(self.at.facts), list(self.at.available), list(self.at.initial)
         statement = self.at.statement
-        self.seeker.outcomes, self.seeker.thorough = [], thorough
+        self.seeker.outcomes, self.seeker.thorough, self.seeker.brief = [], thorough, brief
         roles = Roles(dict(table), self.at.quantities, rule)
         try:
             RULES[rule](self.at, roles)
             roles.close()
+        except Abandoned:
+            pass
         except (Invalid, Declined) as error:
             self.seeker.outcomes.append(Outcome(rule, False, str(error)))
+        self.seeker.brief = False
         if all(outcome.met for outcome in self.seeker.outcomes):
             self.steps.append({"rule": rule, "of": dict(table), "proofs": self._proofs()})
             return True

@@ -54,16 +54,20 @@ class Loop:
         if changed.forgotten is not None:
             del self.suppose[changed.forgotten]
         self._close()
+        dropped = slice(0)
         for k, given in enumerate(theorem.given):
-            if k != changed.dropped:
-                self.collector.assume(given.claim, self._about(given))
-                self._close()
+            before = len(self.collector.given)
+            self.collector.assume(given.claim, self._about(given))
+            if k == changed.dropped:
+                dropped = slice(before, len(self.collector.given))
+            self._close()
         for used in using:
             if not isinstance(used.claim, Equal):
                 self.collector.assume(used.claim, PROVED)
         with study.along_trajectory(changed.along and theorem.trajectory):
             self.collector._assume_what_occurs()
         self._close()
+        del self.collector.given[dropped]  # only now: the listings of the others keep their names
         empty = Problem(study.name, id_, theorem.text(), {}, Claim("theorem", "claim", theorem={}))
         self.problem = self._base(empty)
         self.statement = extended(read_statement(self.problem.statement()), ())

@@ -20,7 +20,7 @@ from symctrl.kernel.argument import OBLIGATION, Argument, Obligation
 from symctrl.kernel.certificate import Declined, Invalid
 from symctrl.kernel.theorem import proved
 from symctrl.kernel.values import Condition
-from symctrl.problem import Claim, Meaning, Problem
+from symctrl.problem import Assumption, Claim, Meaning, Problem
 from symctrl.reach import pruned
 from symctrl.rules import totals
 from symctrl.rules.loop import assumption_of, tape_of
@@ -43,34 +43,53 @@ class Outcome:
     witness: Witness | None = None
 
 
+Memory = dict[str, tuple[Outcome, tuple[Assumption, ...]]]  # by digest; what the proof assumes, in order
+
+
+class Abandoned(Exception):  # noqa: N818
+    """An obligation is not met, and nobody asks for the others."""
+
+
 class Seeker:
     """The judge of an argument that is being looked for: it notes every outcome and goes on.
 
-    thorough: an obligation without a proof is also tried to be refuted.
+    thorough: an obligation without a proof is also tried to be refuted. brief: the first that is not met ends
+    the search. memory: outcomes of other searches
+    for the same theorem.
     """
 
-    def __init__(self, id_: str, thorough: bool = True) -> None:
+    def __init__(self, id_: str, thorough: bool = True, memory: Memory | None = None) -> None:
         self.id = id_
         self.thorough = thorough
+        self.brief = False
         self.outcomes: list[Outcome] = []
         self.tapes: dict[int, tuple[kernel.Listing, Tape]] = {}
         self.meanings: dict[int, tuple[kernel.Meaning, Meaning]] = {}
-        self.known: dict[str, Outcome] = {}
+        self.memory: Memory = {} if memory is None else memory
         self.pointless: set[tuple[str, ...]] = set()
 
     def prove(self, at: Argument, obligation: Obligation) -> None:
         usable = at.usable(obligation)
         problem = self.problem(at.composed(obligation, usable), usable)
-        key = problem.sha256
-        if key not in self.known or (
-            self.thorough and not self.known[key].met and not self.known[key].witness
-        ):
-            self.known[key] = self._outcome(at, obligation, usable, problem)
-        self.outcomes.append(replace(self.known[key], role=obligation.role))
+        own = [assumption_of(a) for a in usable]
+        known = self.memory.get(problem.sha256)
+        if known is not None and not set(known[1]) <= set(own):
+            known = None
+        if known is None or (self.thorough and not known[0].met and not known[0].witness):
+            outcome = self._outcome(at, obligation, usable, problem)
+            known = self.memory[problem.sha256] = outcome, tuple(own[k] for k in outcome.given)
+        numbers = tuple(own.index(a) for a in known[1])
+        self.outcomes.append(replace(known[0], role=obligation.role, given=numbers))
+        self._go_on()
 
     def require(self, role: str, holds: bool, why: str) -> None:
         if not holds:
             self.outcomes.append(Outcome(role, False, why))
+            self._go_on()
+
+    def _go_on(self) -> None:
+        if self.brief and not self.outcomes[-1].met:
+            raise Abandoned
 
     def problem(self, statement: kernel.Statement, usable: Sequence[kernel.Assumption]) -> Problem:
         """The composed statement as a problem, with what it reads."""

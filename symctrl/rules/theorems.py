@@ -21,7 +21,7 @@ from symctrl.rules.carries import conclude
 from symctrl.rules.chain import Chain, Done, accepted, recorded
 from symctrl.rules.loop import Loop
 from symctrl.rules.planners import PLANNERS
-from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.rules.seeker import Memory, Outcome, Seeker
 from symctrl.rules.twins import twins
 from symctrl.rules.vacuous import contradictory, refuse_assumed_conclusions
 from symctrl.statements import Nonzero
@@ -119,7 +119,8 @@ def decide(
 def _decided(study: Study, loop: Loop, id_: str, equation: str) -> Decided:
     theorem, using = loop.theorem, loop.using
     entries = [entry for entry in study.arguments if entry.theorem == id_]
-    tried = [conforming(Loop(study, theorem, id_, using), entry) for entry in entries]
+    memory: Memory = {}
+    tried = [conforming(Loop(study, theorem, id_, using), entry, memory) for entry in entries]
     rows = tuple(row for one in tried for row in rows_of(one, id_, equation))
     closing = next((one for one in tried if one.closes), None)
     refuted = _refuted(study, loop, id_)
@@ -135,7 +136,7 @@ def _decided(study: Study, loop: Loop, id_: str, equation: str) -> Decided:
         prefix = f"{id_}/{closing.entry.id}/"
         steps = tuple(r.id for r in rows if r.id.startswith(prefix) and r.form == "step")
         laws = [law.name for law in loop.laws if loop.problem.laws]
-        found = twins(study, theorem, id_, using, closing.entry, laws)
+        found = twins(study, theorem, id_, using, closing.entry, laws, memory)
         return Decided(loop.problem, verdict, rows, steps, (), found, closing.shown)
     if isinstance(refuted, Verdict):
         return Decided(loop.problem, refuted, rows)
@@ -185,17 +186,17 @@ def _read(problem: Problem, kept: Mapping[str, Any]) -> Decided | None:
     return Decided(problem, verdict, rows, rests_on, unmet, found, shown)
 
 
-def conforming(loop: Loop, entry: ArgumentEntry) -> Tried:
+def conforming(loop: Loop, entry: ArgumentEntry, memory: Memory) -> Tried:
     """The argument, decided; one that does not conform proves nothing."""
     try:
-        return attempt(loop, entry)
+        return attempt(loop, entry, memory)
     except (Nonconforming, UndefinedLetter) as error:
         return Tried(entry, (), (), (), ill_formed=str(error))
 
 
-def attempt(loop: Loop, entry: ArgumentEntry, thorough: bool = True) -> Tried:
+def attempt(loop: Loop, entry: ArgumentEntry, memory: Memory, thorough: bool = True) -> Tried:
     """One argument, line by line, with a certificate where it closes."""
-    chain = Chain(loop, Seeker(loop.problem.id, thorough))
+    chain = Chain(loop, Seeker(loop.problem.id, thorough, memory), hasty=not thorough)
     begin = tuple(chain.outcomes)
     lines = tuple(chain.decided(recorded(entry.function), PLANNERS))
     whole = all(o.met for o in begin) and all(done.met for done in lines)

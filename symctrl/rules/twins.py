@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 from symctrl.expr import Expr, Nonconforming, terms
 from symctrl.rows import Twins
 from symctrl.rules.loop import Changed, Loop
+from symctrl.rules.seeker import Memory
 from symctrl.text import text
 from symctrl.theorem import ArgumentEntry, Theorem
 from symctrl.written import Law, StudyError
@@ -22,16 +23,25 @@ if TYPE_CHECKING:
 
 
 def twins(
-    study: Study, theorem: Theorem, id_: str, using: Sequence[Used], entry: ArgumentEntry, laws: Sequence[str]
+    study: Study,
+    theorem: Theorem,
+    id_: str,
+    using: Sequence[Used],
+    entry: ArgumentEntry,
+    laws: Sequence[str],
+    memory: Memory,
 ) -> Twins:
-    """The twins for which the argument closes too. laws: those that the closed loop reads."""
+    """The twins for which the argument closes too.
+
+    laws: those that the closed loop reads. memory: what became of the theorem's own obligations.
+    """
     from symctrl.rules.theorems import attempt
 
     tried, still = 0, []
     for said, changed in (*_without(theorem), *_turned([study.laws[name] for name in laws])):
         tried += 1
         try:
-            closes = attempt(Loop(study, theorem, id_, using, changed), entry, thorough=False).closes
+            closes = attempt(Loop(study, theorem, id_, using, changed), entry, memory, thorough=False).closes
         except (Nonconforming, StudyError):
             continue
         if closes:
