@@ -20,7 +20,7 @@ from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
 from symctrl.rules.algebra import rate_over
 from symctrl.rules.loop import Loop
-from symctrl.rules.seeker import Outcome, Seeker
+from symctrl.rules.seeker import Abandoned, Outcome, Seeker
 from symctrl.rules.tapes import arguments
 from symctrl.text import text
 from symctrl.theorem import Line
