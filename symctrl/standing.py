@@ -95,9 +95,7 @@ def _inherited(id_: str, known: dict[str, Row], above: frozenset[str]) -> tuple[
     return tuple(found)
 
 
-def _stands(
-    id_: str, known: dict[str, Row], standing: dict[str, bool], complete: bool
-) -> None:
+def _stands(id_: str, known: dict[str, Row], standing: dict[str, bool], complete: bool) -> None:
     if id_ in standing:
         return
     row = known[id_]

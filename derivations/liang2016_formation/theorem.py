@@ -2,11 +2,26 @@
 
 from __future__ import annotations
 
-from derivations.liang2016_formation.chart import Lambda, on_a_path, ones, own
+from derivations.liang2016_formation.chart import (
+    gains,
+    in_differences,
+    in_rates,
+    on_a_path,
+    ones,
+    own,
+    small_at_the_beginning,
+    the_chart_is_kept,
+)
 from derivations.liang2016_formation.conclusion import V_2
 from derivations.liang2016_formation.control import V, e, s, tau
 from derivations.liang2016_formation.model import Q, dq
-from derivations.liang2016_formation.rate import closed_loop_corrected, d, omega_from_rate, quadratic_form
+from derivations.liang2016_formation.rate import (
+    closed_loop_corrected,
+    d,
+    omega_from_rate,
+    quadratic_form,
+    rate_of_scalar_part,
+)
 from derivations.liang2016_formation.symbols import (
     K_o,
     K_q,
@@ -22,11 +37,11 @@ from derivations.liang2016_formation.symbols import (
 from symctrl import (
     along,
     along_trajectory,
-    apart,
     at,
     bounded,
     claim,
     equal,
+    initially,
     summable,
     tends,
 )
@@ -143,48 +158,38 @@ def of_switches():
 
 @study.corrected(
     theorem_1,
-    using=[closed_loop_corrected, omega_from_rate],
+    using=[closed_loop_corrected, omega_from_rate, rate_of_scalar_part],
     why="With the corrected B the loop is as designed; K_o is at least beta times the graph's largest "
-    "eigenvalue, and the scalar parts do not change their sign.",
+    "eigenvalue, and the initial states are small, so that no scalar part reaches zero.",
 )
 def synchronisation():
     """If beta lambda_max(L) <= K_o and no component of the disturbance, as it enters the acceleration of q,
-    exceeds K_v, all attitudes become equal and all angular velocities zero, on every connected graph, as long
-    as no scalar part reaches zero.
+    exceeds K_v - delta, all attitudes become equal and all angular velocities zero, on every connected graph,
+    from all initial states with positive scalar parts and V + delta sum |q_i|_1 < delta.
     """
     return claim(
-        given=[
-            fleet.eigenvalues_at_most(Lambda),
-            K_o >= beta * Lambda,
-            d(i) <= K_v * ones(),
-            d(i) >= -K_v * ones(),
-            along_trajectory(q[i].scalar > 0),
-            apart(q[i].scalar),
-        ],
+        given=[*gains(), *small_at_the_beginning(), initially(q[i].scalar > 0)],
         then=[
             tends(omega[i]),
             tends(q[i].vector - q[j].vector),
             tends(q[i].scalar - q[j].scalar),
         ],
         free=[d],
+        trajectory=False,
     )
 
 
 @study.argument(synchronisation)
 def by_barbalat(run):
-    in_rates = fleet.sum(i, K_o * dq(i).T @ dq(i) - beta * dq(i).T @ own(i))
-    in_differences = fleet.sum(i, beta * K_q * s(i).T @ s(i))
-    of_switches = fleet.sum(i, K_v * ones().T @ absolute(tau(i)) - d(i).T @ tau(i))
-    run.falls(V, by=[in_rates, in_differences, of_switches])
-    run.bounded(dq(i), by=V, least=K_q / (2 * (K_q + beta * K_o)))
-    run.exists()
-    run.barbalat(s(i), of=in_differences, least=beta * K_q)
+    the_chart_is_kept(run)
+    run.keeps(q[i].scalar > 0)
+    run.barbalat(s(i), of=in_differences(), least=beta * K_q)
     run.barbalat_rate(s(i))
-    run.barbalat(in_rates)
+    run.barbalat(in_rates())
     coupling = fleet.sum(i, dq(i).T @ own(i))
     run.tends(coupling)
     rates = fleet.sum(i, dq(i).T @ dq(i))
-    run.tends(rates, by=[in_rates, coupling], times=[1, beta], divisor=K_o)
+    run.tends(rates, by=[in_rates(), coupling], times=[1, beta], divisor=K_o)
     run.tends(dq(i), by=rates)
     for k in range(3):
         run.tends(omega[i][k], by=dq(i), times=[Q(i)[k, n] for n in range(3)])

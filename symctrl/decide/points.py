@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterator, Mapping
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import lcm
@@ -21,6 +20,7 @@ from symctrl.problem import Assumption, Problem, split, star
 from symctrl.reach import Reach
 
 TRIES_PER_POINT = 60
+TRIES_PER_CONSTANTS = 8
 DRAWS = 60  # of constants
 MOST_SHIFTS = 12
 
@@ -32,7 +32,7 @@ class Recipe:
     ways: to meet the assumed equations. definite: symbols of matrices, with their sizes. root: powers of this
     degree keep roots rational. positive, nonnegative: symbols that are assumed to be. between: the least and
     the greatest value of a symbol, where numbers bound it. constant: the assumptions about parameters that
-    belong to no node.
+    belong to no node, with their symbols.
     """
 
     problem: Problem
@@ -42,7 +42,7 @@ class Recipe:
     nonnegative: frozenset[str]
     root: int
     between: Mapping[str, tuple[Fraction | None, Fraction | None]]
-    constant: tuple[Assumption, ...]
+    constant: tuple[tuple[Assumption, tuple[str, ...]], ...]
 
 
 def recipe(problem: Problem) -> Recipe:
@@ -66,7 +66,7 @@ def recipe(problem: Problem) -> Recipe:
         frozenset(nonnegative),
         _root_degree(problem),
         _between(problem),
-        tuple(a for a in problem.given if a.kind != "zero" and _is_constant(problem, a)),
+        tuple(_about_constants(problem)),
     )
 
 
@@ -98,9 +98,13 @@ def admissible(problem: Problem, place: Place) -> str | None:
 
 def _point(made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int) -> Place:
     failed = "a value that is not rational"
+    constants: dict[str, Fraction] = {}
     for attempt in range(TRIES_PER_POINT):
+        grown = height + attempt // TRIES_PER_CONSTANTS
+        if attempt % TRIES_PER_CONSTANTS == 0:
+            constants = _constants(made, edges, generator, grown, attempt)
         try:
-            place = Place(_draw(made, edges, generator, height + attempt // 8, attempt), edges)
+            place = Place(_draw(made, edges, generator, grown, attempt, constants), edges)
             wrong = admissible(made.problem, place)
         except (NoExactValue, ZeroDivisionError):
             continue
@@ -111,12 +115,18 @@ def _point(made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.R
 
 
 def _draw(
-    made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int, attempt: int
+    made: Recipe,
+    edges: tuple[tuple[str, str], ...],
+    generator: random.Random,
+    height: int,
+    attempt: int,
+    constants: Mapping[str, Fraction],
 ) -> dict[str, Fraction]:
     at = neighbours(edges)
-    constants = _constants(made, edges, generator, height, attempt)
     values = {
-        name: constants.get(name, _number(made, star(name) if edges else name, generator, height, attempt))
+        name: constants[name]
+        if name in constants
+        else _number(made, star(name) if edges else name, generator, height, attempt)
         for name in free_names(made.problem, at)
     }
     for node in at or ("",):
@@ -144,27 +154,44 @@ def _draw(
 def _constants(
     made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int, attempt: int
 ) -> dict[str, Fraction]:
-    """Parameters that belong to no node, drawn again until what is assumed of these alone holds."""
+    """Parameters that belong to no node; those of an assumption about these alone are drawn again until it
+    holds.
+    """
     names = [n for n, kind in made.problem.scalars.items() if kind == "parameter" and ".*" not in n]
     values: dict[str, Fraction] = {}
-    for more in range(DRAWS if made.constant else 0):
-        values = {name: _number(made, name, generator, height, attempt + more) for name in names}
-        place = Place(values, edges)
-        at = evaluation(made.problem, place, FractionDomain())
-        with suppress(NoExactValue, ZeroDivisionError):
-            if all(_holds_at(place, a, [at.output(of, {}) for of in a.of]) for a in made.constant):
-                break
+    again = names if made.constant else []
+    for more in range(DRAWS):
+        values |= {name: _number(made, name, generator, height, attempt + more) for name in again}
+        again = _read_by_a_false_one(made, Place(values, edges))
+        if not again:
+            break
     return values
 
 
-def _is_constant(problem: Problem, assumption: Assumption) -> bool:
-    reach = Reach(problem)
-    for listing, _ in assumption.of:
-        reach.listing(listing)
-    free = [name for name in reach.read if name in problem.scalars]
-    return all(problem.scalars[name] == "parameter" and ".*" not in name for name in free) and not any(
-        problem.names[name].is_ in ("sum", "total", "rate") for name in reach.read if name in problem.names
-    )
+def _read_by_a_false_one(made: Recipe, place: Place) -> list[str]:
+    """The symbols of the first assumption about constants that does not hold."""
+    at = evaluation(made.problem, place, FractionDomain())
+    for assumption, names in made.constant:
+        try:
+            holds = _holds_at(place, assumption, [at.output(of, {}) for of in assumption.of])
+        except (NoExactValue, ZeroDivisionError):
+            holds = False
+        if not holds:
+            return list(names)
+    return []
+
+
+def _about_constants(problem: Problem) -> Iterator[tuple[Assumption, tuple[str, ...]]]:
+    """The assumptions about parameters that belong to no node, with the symbols that they read."""
+    for assumption in problem.given:
+        reach = Reach(problem)
+        for listing, _ in assumption.of:
+            reach.listing(listing)
+        free = [name for name in problem.scalars if name in reach.read]
+        kinds = {problem.names[name].is_ for name in reach.read if name in problem.names}
+        constant = all(problem.scalars[name] == "parameter" and ".*" not in name for name in free)
+        if assumption.kind != "zero" and constant and not kinds & {"sum", "total", "rate"}:
+            yield assumption, tuple(free)
 
 
 def _number(made: Recipe, name: str, generator: random.Random, height: int, attempt: int) -> Fraction:

@@ -11,6 +11,7 @@ from symctrl.graph import Tape
 from symctrl.rules.algebra import Algebra, algebra, symbol_of
 from symctrl.rules.chain import Chain
 from symctrl.rules.constants import carried_with, offsets, squares_in
+from symctrl.rules.edges import edges
 from symctrl.rules.loop import tape_of
 from symctrl.rules.quantities import formula, share_symbols
 from symctrl.rules.tapes import bare, single
@@ -24,7 +25,12 @@ MAX_INSIDE = 12  # sums and differences inside a quantity that are tried by them
 def bounded(chain: Chain, name: str) -> bool:
     """As it is composed, by itself, or as it is composed of sums and differences that are bounded."""
     composed_of = {"word": "bounded", "how": "composed", "e": name}
-    if chain.attempt("carries", composed_of) or _by_itself(chain, name):
+    if chain.attempt("carries", composed_of):
+        return True
+    divides = sorted(chain.at.traits(name).edges)
+    if divides and not edges(chain, divides) and chain.attempt("carries", composed_of):
+        return True
+    if _by_itself(chain, name):
         return True
     tape = tape_of(chain.at.statement.listings[name])
     inside = [r for r, step in enumerate(tape.code) if step.op in ("ADD", "SUB") and r != tape.outputs[0]]

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from symctrl.kernel.values import Sentence
+from symctrl.rules.apart import stays_apart
 from symctrl.rules.chain import Chain
 from symctrl.rules.tapes import arguments
-from symctrl.rules.ways import ensure
 
 
 def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
@@ -21,7 +21,8 @@ def edges(chain: Chain, wanted: Sequence[str]) -> list[str]:
         key = chain.at.traits(name).key
         if key in open_:
             open_.discard(key)
-            ensure(chain, "apart", name)
+            if not chain.at.has("apart", name):
+                stays_apart(chain, name)
             found.append(name)
     return [
         name

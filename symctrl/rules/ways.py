@@ -5,19 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from symctrl.records import Sum
-from symctrl.rules.algebra import algebra
+from symctrl.rules.apart import stays_apart
 from symctrl.rules.boundedness import bounded, bounded_forms
 from symctrl.rules.chain import Chain
 from symctrl.rules.combination import combinations
 from symctrl.rules.constants import (
     carried_with,
-    constant_quotient,
     factors,
     half_of,
     rates_of,
     squares_in,
 )
-from symctrl.rules.quantities import claimed, share_symbols
+from symctrl.rules.quantities import share_symbols
 
 
 def ensure(chain: Chain, word: str, name: str) -> bool:
@@ -98,31 +97,6 @@ def exponentially_by(chain: Chain, name: str, V: str, least: str | None = None) 
         if met:
             return True
     return False
-
-
-def stays_apart(chain: Chain, name: str) -> bool:
-    """As a constant, as a constant multiple of what stays apart, or above its square."""
-    if chain.at.is_constant(name):
-        return chain.attempt("carries", {"word": "apart", "how": "constant", "e": name})
-    return any(
-        _apart_with(chain, name, z) for z in _apart(chain) if z != name and not chain.at.is_constant(z)
-    )
-
-
-def _apart(chain: Chain) -> list[str]:
-    """What is supposed or known to stay apart from zero."""
-    suppose = chain.loop.statement.claim.suppose
-    supposed = [claimed(chain, k) for sentence in suppose if sentence.word == "apart" for k in sentence.of]
-    return list(dict.fromkeys([*supposed, *chain.having("apart")]))
-
-
-def _apart_with(chain: Chain, name: str, z: str) -> bool:
-    """As a multiple of z, or with a square above that of z."""
-    table = {"word": "apart", "e": name, "by": z}
-    factor = algebra(chain, [name, z], constant_quotient, relations=True)
-    if factor is not None and chain.attempt("carries", table | {"how": "multiple", "times": chain.q(factor)}):
-        return True
-    return chain.attempt("carries", table | {"how": "above"})
 
 
 WAYS: Mapping[str, Callable[[Chain, str], bool]] = {
