@@ -186,15 +186,16 @@ def _products(session: Session) -> list[Product]:
 
 
 def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
-    """The nonnegative assumptions at node i, by index; then opaque generators that are not negative, by
-    POLY.
+    """The nonnegative assumptions at node i, by index; then symbols of its neighbour and opaque generators
+    that are not negative, by POLY.
     """
-    field = session.domain.field
+    field, known = session.domain.field, session.domain.signs.generator
     for k, assumption in enumerate(session.problem.given):
         if assumption.kind in ("positive", "nonnegative"):
             yield k, session.carrier(session.at(assumption.of[0], {"i": "i"}))
     for k, g in enumerate(field.generators):
-        if g.kind in ("root", "abs", "exp", "power"):
+        of_neighbour = g.kind == "free" and ".j" in g.name and known.get(k) in ("positive", "nonnegative")
+        if of_neighbour or g.kind in ("root", "abs", "exp", "power"):
             yield field.json(field.variable(k)), field.variable(k)
         for beside in _beside(session, k):
             yield field.json(beside), beside
