@@ -140,7 +140,8 @@ def _draw(
         for step in reversed(generator.choice(made.ways)):
             if isinstance(step, Sphere):
                 drawn = _on_sphere(len(step.names), generator, 0 if _rests(attempt) else height)
-                values.update({local(n): step.radius * x for n, x in zip(step.names, drawn, strict=True)})
+                towards_pole = sorted(step.names, key=made.positive.__contains__)
+                values.update({local(n): step.radius * x for n, x in zip(towards_pole, drawn, strict=True)})
             else:
                 known = {
                     star(n) if edges else n: v
@@ -221,11 +222,14 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
 
 
 def _rests(attempt: int) -> bool:
-    return attempt % 6 == 5
+    """Only where moving points have failed: at rest too many claims hold that are false elsewhere."""
+    return attempt >= TRIES_PER_POINT // 2 and attempt % 2 == 1
 
 
 def _on_sphere(count: int, generator: random.Random, height: int) -> list[Fraction]:
-    """A rational point of the unit sphere by stereographic projection; the last coordinate is never -1."""
+    """A rational point of the unit sphere by stereographic projection; the last coordinate is never -1, and 1
+    at height 0.
+    """
     t = [
         Fraction(generator.randint(-height, height), generator.randint(1, max(height, 1)))
         for _ in range(count - 1)

@@ -5,9 +5,10 @@ enclosures."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import islice
 from typing import Any
 
 from symctrl.decide.place import Place, evaluation, is_fleet
@@ -59,13 +60,13 @@ def refute(problem: Problem, tries: int = TRIES) -> Witness | None:
     """A witness against an equation or a bound, or None. Raises NoPoint where no admissible point is found at
     all.
     """
-    for tried, place in enumerate(points(problem), start=1):
-        found = _fails(problem, place)
-        if found is not None:
-            return found
-        if tried >= tries:
-            return None
-    return None
+    return fails_at(problem, islice(points(problem), tries))
+
+
+def fails_at(problem: Problem, places: Iterable[Place]) -> Witness | None:
+    """A witness among admissible places, or None."""
+    found = (_fails(problem, place) for place in places)
+    return next((witness for witness in found if witness is not None), None)
 
 
 def _fails(problem: Problem, place: Place) -> Witness | None:

@@ -81,13 +81,15 @@ class Reach:
         self.looped: set[str] = set()
         self.laws: set[str] = set()
         self.replaced: set[tuple[str, str]] = set()
-        self.letters = {name: listing.letters for name, listing in statement.listings.items()}
+        self.letters: dict[str, frozenset[str]] = {}
 
     def listing(self, name: str, letters: Collection[str], level: int, law: str | None) -> None:
         """Visit a listing whose names may mention the node letters given."""
+        visit = (name, level, law)
+        if name not in self.letters:
+            self.letters[name] = self.statement.listings[name].letters
         if not self.letters[name] <= set(letters):
             raise Invalid(f"listing {name[:60]!r} mentions a node that is not bound where it is used")
-        visit = (name, level, law)
         if visit in self.open:
             raise Invalid(f"listing {name[:60]!r} is defined through itself")
         if visit in self.done:

@@ -5,11 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import islice
 from typing import Any
 
 from symctrl.decide.decision import DECIDERS, PROVERS
+from symctrl.decide.place import Place
+from symctrl.decide.points import points
 from symctrl.decide.solve import NoPoint
-from symctrl.decide.witness import Witness, refute
+from symctrl.decide.witness import Witness, fails_at, refute
 from symctrl.domains.domain import Unsupported
 from symctrl.domains.opaque import NowhereDefined
 from symctrl.domains.tangent import NotDifferentiable
@@ -67,6 +70,7 @@ class Seeker:
         self.meanings: dict[int, tuple[kernel.Meaning, Meaning]] = {}
         self.memory: Memory = {} if memory is None else memory
         self.pointless: set[tuple[str, ...]] = set()
+        self.places: dict[tuple[str, ...], tuple[frozenset[str], tuple[Place, ...]]] = {}
 
     def prove(self, at: Argument, obligation: Obligation) -> None:
         usable = at.usable(obligation)
@@ -160,8 +164,13 @@ class Seeker:
         under = tuple(a.text for a in problem.given)
         if problem.claim.matrix is not None or under in self.pointless:
             return None
+        scalars = frozenset(problem.scalars)
+        known, places = self.places.get(under, (frozenset(), ()))
         try:
-            return refute(problem, FIRST_TRIES)
+            if not scalars <= known:
+                places = tuple(islice(points(problem), FIRST_TRIES))
+                self.places[under] = scalars, places
+            return fails_at(problem, places)
         except NO_MEANING:
             self.pointless.add(under)
             return None
