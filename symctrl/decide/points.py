@@ -140,8 +140,8 @@ def _draw(
         for step in reversed(generator.choice(made.ways)):
             if isinstance(step, Sphere):
                 drawn = _on_sphere(len(step.names), generator, 0 if _rests(attempt) else height)
-                towards_pole = sorted(step.names, key=made.positive.__contains__)
-                values.update({local(n): step.radius * x for n, x in zip(towards_pole, drawn, strict=True)})
+                for name, x in zip(sorted(step.names, key=made.positive.__contains__), drawn, strict=True):
+                    values[local(name)] = step.radius * (abs(x) if name in made.positive else x)
             else:
                 known = {
                     star(n) if edges else n: v

@@ -27,6 +27,19 @@ def test_a_unit_quaternion_has_norm_one():
     assert len({tuple(place.values.items()) for place in drawn(made)}) > COUNT // 2
 
 
+def test_points_move_unless_only_rest_is_admissible():
+    # At rest the false closed loop of a law holds: a first look that sees rest alone refutes nothing.
+    study, q, w = body()
+    speeds = ("w[1]", "w[2]", "w[3]")
+    moving = problem(study, equal(w[0] + w[1] + w[2], 0))
+    assert all(any(place.values[speed] for speed in speeds) for place in drawn(moving))
+    still = absolute(w[0]) + absolute(w[1]) + absolute(w[2]) <= 0
+    resting = problem(study, equal(w[0], q.scalar), still, q.scalar > 0)
+    for place in drawn(resting):
+        assert place.values["q0"] > 0
+        assert not any(place.values[speed] for speed in speeds)
+
+
 def test_a_linear_relation_is_solved():
     study = Study("s")
     x, y, z = (study.parameter(name) for name in "xyz")

@@ -57,16 +57,6 @@ CONDITIONAL = {
 }
 
 
-@pytest.fixture(scope="module")
-def report() -> Report:
-    return verify(study)
-
-
-@pytest.fixture(scope="module")
-def rows(report: Report) -> dict[str, Row]:
-    return {row.id: row for row in report.rows}
-
-
 def test_the_verdicts_are_those_derived_by_hand(rows: dict[str, Row]) -> None:
     expected = dict.fromkeys(REFUTED, "refuted") | dict.fromkeys(ILL_FORMED, "ill-formed")
     claims = {id_: row for id_, row in rows.items() if row.form not in OF_ARGUMENTS}
