@@ -45,5 +45,7 @@ def _unwatched(_: str) -> Iterator[runs.Progress]:
 
 
 def _verified() -> Report:
-    ((_, report),) = runs.decide([Request(STUDY, graph=None, values={})], None, jobs=None, fresh=True, watch=_unwatched)
+    ((_, report),) = runs.decide(
+        [Request(STUDY, graph=None, values={})], None, jobs=None, fresh=True, watch=_unwatched
+    )
     return report
