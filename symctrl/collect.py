@@ -11,38 +11,19 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-import casadi as ca
-
 from symctrl.bounds import Bound, Hint, Statement
 from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
-from symctrl.graph import Instruction, Tape, read, unfolded
-from symctrl.literals import as_sx, is_constant_name
-from symctrl.problem import (
-    ADVICE,
-    PROVED,
-    Advice,
-    Assumption,
-    Claim,
-    Meaning,
-    Output,
-    Problem,
-    Use,
-    split,
-    star,
-)
+from symctrl.listings import Listings
+from symctrl.problem import ADVICE, PROVED, Advice, Assumption, Claim, Meaning, Problem, Use, star
 from symctrl.reach import Reach, pruned, with_motion
-from symctrl.records import Named, Rate, Record, Sum, Undefined
+from symctrl.records import Named, Rate
 from symctrl.statements import Definite, Equal, LaplacianBound, Nonzero
 from symctrl.structure import lowered
 from symctrl.written import StudyError
 
 if TYPE_CHECKING:
     from symctrl.study import Study
-
-
-class UndefinedLetter(ValueError):  # noqa: N818
-    """The claim uses a letter that the paper never defines."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +35,8 @@ class Used:
     sha256: str
 
 
-class Collector:
-    """Gathers one problem. values: exact values of parameters that are bound, by scalar name. bodies: other
-    formulas for laws, by their names.
-    """
+class Collector(Listings):
+    """Gathers one problem."""
 
     def __init__(
         self,
@@ -65,16 +44,8 @@ class Collector:
         values: Mapping[str, Fraction] | None = None,
         bodies: Mapping[str, Expr] | None = None,
     ) -> None:
-        self.study = study
-        self.bodies = dict(bodies or {})
-        self.values = dict(values or {})
-        self.listings: dict[str, Tape] = {}
-        self.scalars: dict[str, str] = {}
-        self.names: dict[str, Meaning] = {}
-        self.motion: dict[str, Output] = {}
-        self.laws: dict[str, dict[str, Output]] = {}
+        super().__init__(study, values, bodies)
         self.given: list[Assumption] = []
-        self.labels: dict[str, str] = {}
 
     def problem(
         self,
@@ -125,6 +96,81 @@ class Collector:
             if isinstance(used.claim, Equal):
                 made = self._replaced(made, used.claim)
         return pruned(made)
+
+    def _advice(self, hint: Hint) -> Advice:
+        """The hint as a listing beside the statement. Raises StudyError where it says more than the claim."""
+        exprs = [hint.times] if hint.times is not None else []
+        exprs += [*hint.squares, *(part for form in hint.forms for part in form)]
+        before = set(self.listings) | set(self.scalars) | set(self.names)
+        self.add(ADVICE, exprs)
+        new = (set(self.listings) | set(self.scalars) | set(self.names)) - before - {ADVICE}
+        if new:
+            raise StudyError(
+                f"a hint of a proof speaks of {', '.join(sorted(new))}, which the claim does not"
+            )
+        sizes = tuple(x.shape[0] for _, x in hint.forms)
+        return Advice(self.listings.pop(ADVICE), hint.times is not None, len(hint.squares), sizes)
+
+    # Assumptions
+
+    def assume(self, claim: Statement, about: str) -> None:
+        """Enter an assumption: an equation or a bound gives one for each entry."""
+        listing = f"given {len(self.given) + 1}"
+        written = claim.text()
+        if isinstance(claim, Equal):
+            difference = claim.left - claim.right
+            self.add(listing, [difference])
+            self._each("zero", listing, difference, written, about)
+        elif isinstance(claim, Bound):
+            self.add(listing, [claim.expr])
+            self._each("positive" if claim.strict else "nonnegative", listing, claim.expr, written, about)
+        elif isinstance(claim, Nonzero | LaplacianBound):
+            self.add(listing, [claim.expr])
+            self._each(claim.kind, listing, claim.expr, written, about)
+        elif isinstance(claim, Definite):
+            self.add(listing, [claim.matrix])
+            n = claim.matrix.shape[0]
+            of = tuple((listing, k) for k in range(n * n))
+            self.given.append(Assumption(claim.kind, of, written, about, n))
+        else:
+            raise StudyError(
+                f"{written} cannot be assumed: an assumption is an equation, a bound, definiteness or nonzero"
+            )
+
+    def _each(self, kind: str, listing: str, expr: Expr, written: str, about: str) -> None:
+        for k in range(expr.shape[0] * expr.shape[1]):
+            self.given.append(Assumption(kind, ((listing, k),), written, about))
+
+    def _assume_what_occurs(self) -> None:
+        """The study's assumptions about symbols that occur; an assumption may bring a bound's own symbol with
+        it.
+        """
+        waiting = [a for a in self.study.assumed if a.about != "trajectory" or self.study.on_trajectory]
+        while True:
+            ready = [a for a in waiting if self._occurs(a.claim)]
+            if not ready:
+                return
+            for assumed in ready:
+                waiting.remove(assumed)
+                self.assume(assumed.claim, assumed.about)
+
+    def _occurs(self, claim: Statement) -> bool:
+        """Does a state or signal of the assumption occur in the problem, or any symbol of one about
+        parameters?
+        """
+        known = {star(n) for n in self.scalars}
+        occurring, kinds = set(), set()
+        for expr in _sides(claim)[0]:
+            for node in walk(expr):
+                if node.op == "symbol":
+                    name = node.args[0].replace(".i", ".*")
+                    kind = self.study.symbols[name].kind
+                    kinds.add(kind)
+                    if known & set(component_names(name, node.shape, node.args[2])):
+                        occurring.add(kind)
+        return bool(occurring - {"parameter"}) or (kinds == {"parameter"} and bool(occurring))
+
+    # Proved statements that are used
 
     def _replaced(self, made: Problem, used: Equal) -> Problem:
         """The problem with the right side of a proved equation in the place of the name, or of the rate, on
@@ -202,197 +248,6 @@ class Collector:
     def _scalars_of_symbol(x: Expr) -> list[str]:
         return list(component_names(x.args[0].replace(".i", ".*"), x.shape, x.args[2]))
 
-    def _reach(self, listing: str) -> None:
-        """Add every motion that the evaluation of the listing needs."""
-        Reach(self, wanted=self._add_motion).listing(listing)
-
-    def _advice(self, hint: Hint) -> Advice:
-        """The hint as a listing beside the statement. Raises StudyError where it says more than the claim."""
-        exprs = [hint.times] if hint.times is not None else []
-        exprs += [*hint.squares, *(part for form in hint.forms for part in form)]
-        before = set(self.listings) | set(self.scalars) | set(self.names)
-        self.add(ADVICE, exprs)
-        new = (set(self.listings) | set(self.scalars) | set(self.names)) - before - {ADVICE}
-        if new:
-            raise StudyError(
-                f"a hint of a proof speaks of {', '.join(sorted(new))}, which the claim does not"
-            )
-        sizes = tuple(x.shape[0] for _, x in hint.forms)
-        return Advice(self.listings.pop(ADVICE), hint.times is not None, len(hint.squares), sizes)
-
-    # Listings
-
-    def add(self, name: str, exprs: Sequence[Expr], at_neighbour: bool = False) -> None:
-        """The listing of expressions one after another, and all that it reaches.
-
-        at_neighbour: the expressions are written for node j, and the listing shall be for node i.
-        """
-        if name in self.listings:
-            return
-        records: dict[str, Record] = {}
-        for expr in exprs:
-            for node in walk(expr):
-                if node.op == "deferred":
-                    records[node.args[0].label] = node.args[0]
-        with unfolded():
-            entries = ca.vertcat(*[as_sx(entry) for expr in exprs for entry in expr.entries])
-            symbols = ca.symvar(entries)
-            function = ca.Function("listing", [ca.vertcat(*symbols)], [ca.densify(entries)])
-        shown = [self._shown(s.name(), records, at_neighbour) for s in symbols]
-        self.listings[name] = self._bound(read(function, shown))
-        for label, record in records.items():
-            self._record(label, record)
-        for scalar in self.listings[name].inputs:
-            self._scalar(star(scalar))
-
-    def _shown(self, scalar: str, records: Mapping[str, Record], at_neighbour: bool) -> str:
-        """The name of a scalar in a listing: anonymous records get short names, and a lone neighbour is the
-        node.
-        """
-        base, node, index = split(scalar)
-        label = base if node is None else f"{base}.{node}"
-        if label in records and not isinstance(records[label], Named):
-            base = self._label(base)
-        if node is None:
-            return f"{base}{index}"
-        return f"{base}.{'i' if at_neighbour and node == 'j' else node}{index}"
-
-    def _label(self, base: str) -> str:
-        if base not in self.labels:
-            kind = base.partition("_")[0]
-            count = 1 + sum(shown.startswith(kind) for shown in self.labels.values())
-            self.labels[base] = f"{kind}{count}"
-        return self.labels[base]
-
-    def _bound(self, tape: Tape) -> Tape:
-        """Named constants and bound parameters become literals."""
-        code = []
-        for step in tape.code:
-            bound = step
-            if step.op == "INPUT" and is_constant_name(step.name):
-                bound = Instruction("CONST", value=Fraction(step.name))
-            elif step.op == "INPUT" and step.name in self.values:
-                bound = Instruction("CONST", value=self.values[step.name])
-            code.append(bound)
-        return _merged(code, tape.outputs)
-
-    # Names
-
-    def _record(self, label: str, record: Record) -> None:
-        if isinstance(record, Undefined):
-            raise UndefinedLetter(f"{record.label} is used and never defined")
-        base, _, node = label.partition(".")
-        shown = base if isinstance(record, Named) else self._label(base)
-        key = f"{shown}.*" if node else shown
-        for k, scalar in enumerate(component_names(key, record.body.shape)):
-            if scalar in self.names:
-                return
-            self.names[scalar] = self._meaning(record, shown, k)
-        before = record.law if isinstance(record, Rate) else None
-        if before is not None:
-            self._law(before)
-        self.add(shown, [record.body], at_neighbour=isinstance(record, Rate) and node == "j")
-
-    def _meaning(self, record: Record, listing: str, k: int) -> Meaning:
-        if isinstance(record, Rate):
-            return Meaning("rate", (listing, k), record.law)
-        if isinstance(record, Sum):
-            return Meaning("total" if record.total else "sum", (listing, k))
-        return Meaning("value", (listing, k))
-
-    def _scalar(self, name: str) -> None:
-        if name in self.names or name in self.scalars:
-            return
-        base, node, _ = split(name)
-        declared = self.study.symbols.get(base if node is None else f"{base}.*")
-        if declared is None:
-            raise UndefinedLetter(f"{name} is no symbol of the study {self.study.name}")
-        self.scalars[name] = declared.kind
-
-    def _law(self, name: str) -> None:
-        if name in self.laws:
-            return
-        law = self.study.laws[name]
-        target = law.target
-        base = target.args[0].replace(".i", ".*")
-        self.laws[name] = {s: (f"law {name}", k) for k, s in enumerate(component_names(base, target.shape))}
-        self.add(f"law {name}", [self.bodies[name] if name in self.bodies else law.body()])
-        for scalar in self.laws[name]:
-            self.scalars.setdefault(scalar, "input")
-
-    def _add_motion(self, name: str) -> None:
-        """The motion of a state or signal, if the study gives one."""
-        base, node, _ = split(name)
-        symbol = base if node is None else f"{base}.i"
-        for x, xdot in self.study.motions:
-            if x.args[0] == symbol:
-                listing = f"motion {base}"
-                self.add(listing, [xdot])
-                key = symbol.replace(".i", ".*")
-                for k, scalar in enumerate(component_names(key, x.shape)):
-                    self.motion[scalar] = (listing, k)
-                    self.scalars.setdefault(scalar, "state")
-                return
-
-    # Assumptions
-
-    def assume(self, claim: Statement, about: str) -> None:
-        """Enter an assumption: an equation or a bound gives one for each entry."""
-        listing = f"given {len(self.given) + 1}"
-        written = claim.text()
-        if isinstance(claim, Equal):
-            difference = claim.left - claim.right
-            self.add(listing, [difference])
-            self._each("zero", listing, difference, written, about)
-        elif isinstance(claim, Bound):
-            self.add(listing, [claim.expr])
-            self._each("positive" if claim.strict else "nonnegative", listing, claim.expr, written, about)
-        elif isinstance(claim, Nonzero | LaplacianBound):
-            self.add(listing, [claim.expr])
-            self._each(claim.kind, listing, claim.expr, written, about)
-        elif isinstance(claim, Definite):
-            self.add(listing, [claim.matrix])
-            n = claim.matrix.shape[0]
-            of = tuple((listing, k) for k in range(n * n))
-            self.given.append(Assumption(claim.kind, of, written, about, n))
-        else:
-            raise StudyError(
-                f"{written} cannot be assumed: an assumption is an equation, a bound, definiteness or nonzero"
-            )
-
-    def _each(self, kind: str, listing: str, expr: Expr, written: str, about: str) -> None:
-        for k in range(expr.shape[0] * expr.shape[1]):
-            self.given.append(Assumption(kind, ((listing, k),), written, about))
-
-    def _assume_what_occurs(self) -> None:
-        """The study's assumptions about symbols that occur; an assumption may bring a bound's own symbol with
-        it.
-        """
-        waiting = [a for a in self.study.assumed if a.about != "trajectory" or self.study.on_trajectory]
-        while True:
-            ready = [a for a in waiting if self._occurs(a.claim)]
-            if not ready:
-                return
-            for assumed in ready:
-                waiting.remove(assumed)
-                self.assume(assumed.claim, assumed.about)
-
-    def _occurs(self, claim: Statement) -> bool:
-        """Does a state or signal of the assumption occur in the problem, or any symbol of one about
-        parameters?
-        """
-        known = {star(n) for n in self.scalars}
-        occurring, kinds = set(), set()
-        for expr in _sides(claim)[0]:
-            for node in walk(expr):
-                if node.op == "symbol":
-                    name = node.args[0].replace(".i", ".*")
-                    kind = self.study.symbols[name].kind
-                    kinds.add(kind)
-                    if known & set(component_names(name, node.shape, node.args[2])):
-                        occurring.add(kind)
-        return bool(occurring - {"parameter"}) or (kinds == {"parameter"} and bool(occurring))
-
 
 def _label(left: Expr) -> str:
     """The label of a definition or rate; empty for another expression."""
@@ -413,17 +268,3 @@ def _sides(claim: Statement) -> tuple[list[Expr], str, tuple[int, int]]:
         return [claim.expr**2], "positive", claim.expr.shape  # x != 0 is x^2 > 0, for which there are proofs
     expr: Expr = claim.expr  # type: ignore[attr-defined]
     return [expr], claim.kind, expr.shape
-
-
-def _merged(code: Sequence[Instruction], outputs: Sequence[int]) -> Tape:
-    """The tape with equal instructions merged again."""
-    register: dict[Instruction, int] = {}
-    new: list[Instruction] = []
-    where: list[int] = []
-    for step in code:
-        moved = Instruction(step.op, tuple(where[a] for a in step.args), step.name, step.value)
-        at = register.setdefault(moved, len(new))
-        if at == len(new):
-            new.append(moved)
-        where.append(at)
-    return Tape(tuple(new), tuple(where[r] for r in outputs))

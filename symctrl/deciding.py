@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from symctrl.collect import UndefinedLetter, Used
+from symctrl.collect import Used
 from symctrl.context import noticing_graph, within
 from symctrl.decide.claims import Part, digest_of, parts, verdict_of
 from symctrl.expr import Nonconforming, lift
+from symctrl.listings import UndefinedLetter
 from symctrl.statements import AtValues, Conforms
 from symctrl.theorem import Theorem
 from symctrl.verdict import Outcome, Verdict

@@ -163,7 +163,7 @@ def _run_file(path: Path) -> ModuleType:
 
 
 def _asked_in_vain(name: str, error: BaseException) -> BaseException:
-    from symctrl.study import StudyError
+    from symctrl.written import StudyError
 
     return InputError(f"study {name}: {error}") if isinstance(error, StudyError) else error
 

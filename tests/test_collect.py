@@ -5,8 +5,9 @@ from fractions import Fraction
 import pytest
 
 from symctrl import Study, conforms, equal, nonnegative, positive_definite
-from symctrl.collect import Collector, UndefinedLetter, Used
+from symctrl.collect import Collector, Used
 from symctrl.expr import symbol
+from symctrl.listings import UndefinedLetter
 from symctrl.reach import closings, pruned
 from symctrl.written import StudyError
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from symctrl import registry
-from symctrl.study import StudyError
+from symctrl.written import StudyError
 
 NAMED = "from symctrl.study import Study\nstudy = Study('{}', source='s')\n"
 GOOD = '''\

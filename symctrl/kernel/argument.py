@@ -2,13 +2,11 @@
 
 Soundness-critical. Last reviewed 2026-11-24.
 
-Relies on the theorems of the rules (`kernel.rules`), one in each file. What is said is said of every solution
-on its maximal interval: absolutely continuous, and where the field jumps in the sense of Filippov, for every
-admissible signal (measurable, locally bounded). An assumption that speaks of states, and neither of a signal
-nor of the whole trajectory, holds at the beginning only: an equation is used after its rate is shown to be
-zero, an inequality after the rule `keeps`. The field is affine in its switches wherever a rate of |.| is
-taken: then every value of the field is that for one value of each switch, and |a| has the rate s a' for any s
-where a = 0.
+Relies on the theorems of the rules (`kernel.rules`), one in each file. An assumption that speaks of states,
+and neither of a signal nor of the whole trajectory, holds at the beginning only: an equation is used after
+its rate is shown to be zero, an inequality after the rule `keeps`. The field is affine in its switches
+wherever a rate of |.| is taken: then every value of the field is that for one value of each switch, and |a|
+has the rate s a' for any s where a = 0.
 
 An obligation is composed here from the formula of its rule (`compose`); the certificate has only its proof.
 """
@@ -19,19 +17,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
 
-from symctrl.kernel.certificate import Invalid, at_node, split_name
+from symctrl.kernel.certificate import Invalid
 from symctrl.kernel.closure import Reach, rates_exist_where_defined
-from symctrl.kernel.compose import composed, rate_listing, rates_of
-from symctrl.kernel.evaluation import Evaluation
-from symctrl.kernel.traits import LIPSCHITZ, NOT_AFFINE, Reading, Traits, reading
+from symctrl.kernel.compose import composed, rates_of
+from symctrl.kernel.knowledge import Knowledge
+from symctrl.kernel.traits import LIPSCHITZ, NOT_AFFINE
 from symctrl.kernel.values import Assumption, Claim, Listing, Statement, Step
 
 OBLIGATION = "obligation"
 LEMMA = "lemma"  # what an assumption is about that a line has shown to hold at every state
-Roles = Mapping[str, "str | list[str]"]
-Known = tuple[str, str]  # a word and what it is about: a key, or the keys of a set
 STRICT = frozenset(("nonzero", "positive"))
-INSIDE = "inside"
 
 
 @dataclass(frozen=True)
@@ -69,27 +64,19 @@ class Judge(Protocol):
 
 
 @dataclass
-class Argument:
-    """The state of an argument: the system with its quantities, and the facts so far.
+class Argument(Knowledge):
+    """The state of an argument: what is known, and the assumptions that may be used by now.
 
     available: assumptions that may be used in obligations. initial: those of the beginning only. stated: the
     states whose motion the statement itself has.
     """
 
-    statement: Statement
     quantities: tuple[str, ...]
     judge: Judge
-    facts: set[Known] = field(default_factory=set)
     available: list[Assumption] = field(default_factory=list)
     initial: list[tuple[str, Assumption]] = field(default_factory=list)
     relations: list[tuple[str, Assumption]] = field(default_factory=list)
     stated: frozenset[str] = frozenset()
-    _stamp: tuple[int, int] = (-1, -1)
-    _read: Any = None
-
-    @property
-    def law(self) -> str | None:
-        return self.statement.claim.law
 
     # Obligations and needs
 
@@ -122,69 +109,6 @@ class Argument:
             "that solutions exist for all time is not known before this line",
         )
 
-    def has(self, word: str, quantity: str) -> bool:
-        if word == "bounded" and self.traits(quantity).bounded:
-            return True
-        return any((word, key) in self.facts for key in self.keys(quantity))
-
-    # What is read off the graph
-
-    def traits(self, listing: str, letter: str = "i") -> Traits:
-        """Of the only output of a listing."""
-        walk, _ = self._reading()
-        binding = {"i": letter, "j": {"i": "j", "j": "i"}[letter]}
-        value: Traits = walk.output((listing, 0), binding, 0, self.law)
-        return value
-
-    def output_traits(self, ref: tuple[str, int]) -> Traits:
-        """Of one output of a listing that may speak of a node and its neighbour."""
-        walk, _ = self._reading()
-        value: Traits = walk.output(ref, {"i": "i", "j": "j"}, 0, self.law)
-        return value
-
-    def keys(self, listing: str) -> list[str]:
-        """Keys under which facts about the listing stand: of a node's that of any node."""
-        letters = ("i", "j") if self.statement.listings[listing].letters == {"i"} else ("i",)
-        return [self.traits(listing, letter).key for letter in letters]
-
-    def field(self) -> dict[str, Traits]:
-        """The traits of every state's rate."""
-        walk, _ = self._reading()
-        return {
-            state: walk.output(ref, {"i": "i"}, 0, self.law) for state, ref in self.statement.motion.items()
-        }
-
-    def edges(self) -> dict[str, Traits]:
-        """What the field and the definitions of its inputs divide by or take roots of, as `kind key`."""
-        walk, domain = self._reading()
-        found: dict[str, Traits] = {}
-        for ref in self.statement.motion.values():
-            value: Traits = walk.output(ref, {"i": "i"}, 0, self.law)
-            for edge in value.edges:
-                found[edge] = domain.of_edge[edge.partition(" ")[2]]
-        return found
-
-    def edges_are_known(self, traits: Traits) -> bool:
-        """Is all that it divides by, or takes roots of, known to stay inside its domain?"""
-        return all(self.edge_is_known(*edge.split(" ", 1)) for edge in traits.edges)
-
-    def edge_is_known(self, kind: str, key: str) -> bool:
-        words = {
-            "nonzero": ("", "positive "),
-            "positive": ("positive ",),
-            "nonnegative": ("positive ", "nonnegative "),
-            "unit": ("unit ",),
-        }
-        keys = [f"{sign}{key}" for sign in words[kind]]
-        return any((word, key) in self.facts for word in ("apart", INSIDE) for key in keys)
-
-    def learn_edge(self, kind: str, key: str) -> None:
-        """It stays inside its domain over every finite time."""
-        self.facts.add((INSIDE, key if kind == "nonzero" else f"{kind} {key}"))
-
-    def is_constant(self, quantity: str) -> bool:
-        return all(map(self._is_parameter, self.traits(quantity).reads))
-
     def require_constant(self, role: str, quantity: str) -> None:
         self.require(role, self.is_constant(quantity), f"{quantity} is not made of parameters alone")
 
@@ -199,94 +123,13 @@ class Argument:
                 f"{role}, switches", affine, "it has a kink, and the field is not affine in its switches"
             )
 
-    def is_signal(self, name: str) -> bool:
-        """Is it a free symbol that moves and has no motion?"""
-        key = _starred(name)
-        return self.statement.scalars.get(key) != "parameter" and key not in self.statement.motion
-
-    def state_is_bounded(self, state: str) -> bool:
-        return self.free_is_bounded(at_node(state, "i"))
-
-    def free_is_bounded(self, name: str) -> bool:
-        _, domain = self._reading()
-        return domain.free(name).bounded
-
-    def is_total_of_square(self, total: str, quantity: str) -> bool:
-        """Is `total` the sum over nodes of the square of a quantity at a node, or over nodes and neighbours
-        of
-        that of one at both?"""
-        walk, domain = self._reading()
-        of = self._summed(total, "total")
-        binding = {"i": "i"}
-        if of is not None and "j" in self.statement.listings[quantity].letters:
-            of, binding = self._summed(of, "sum"), {"i": "i", "j": "j"}
-        if of is None or self.statement.listings[of].letters - set(binding):
-            return False
-        inner: Traits = walk.output((of, 0), binding, 0, self.law)
-        e: Traits = walk.output((quantity, 0), binding, 0, self.law)
-        return inner.key == domain.mul(e, e).key
-
-    def is_total_of(self, total: str, quantity: str) -> bool:
-        """Is `total` the sum over nodes of a quantity at a node?"""
-        walk, _ = self._reading()
-        of = self._summed(total, "total")
-        if of is None or self.statement.listings[quantity].letters - {"i"}:
-            return False
-        inner: Traits = walk.output((of, 0), {"i": "i"}, 0, self.law)
-        return inner.key == self.traits(quantity).key
-
-    def _summed(self, listing: str, kind: str) -> str | None:
-        """The listing of one output that a listing sums, if a sum is all that it is."""
-        code = self.statement.listings[listing].code
-        meaning = self.statement.names.get(_starred(code[0].name)) if len(code) == 1 else None
-        if (
-            meaning is None
-            or meaning.kind != kind
-            or len(self.statement.listings[meaning.of[0]].outputs) != 1
-        ):
-            return None
-        return meaning.of[0]
-
     def require_total(self, total: str, quantity: str) -> None:
         fits = self.is_total_of_square(total, quantity)
         self.require(
             "the total is that of the square", fits, f"{total} is not the sum of the squares of {quantity}"
         )
 
-    def rate_is_bounded(self, quantity: str, order: int = 1) -> bool:
-        return self.traits(rate_listing(quantity, order)).bounded
-
-    def _is_parameter(self, name: str) -> bool:
-        return self.statement.scalars.get(_starred(name)) == "parameter"
-
-    def _reading(self) -> tuple[Evaluation[Traits], Reading]:
-        """The walk with what is known now."""
-        stamp = len(self.facts), len(self.statement.listings)
-        if self._stamp != stamp:
-            domain = Reading(
-                lambda key: ("bounded", key) in self.facts or ("tends", key) in self.facts,
-                lambda key: ("apart", key) in self.facts,
-                self._is_parameter,
-            )
-            self._stamp, self._read = stamp, (reading(self.statement, domain), domain)
-        walk, known = self._read
-        return walk, known
-
-    # Facts
-
-    def learn(self, word: str, quantity: str) -> None:
-        for key in self.keys(quantity):
-            self.facts.add((word, key))
-
-    def learn_set(self, word: str, zero: bool, quantities: Sequence[str], by: str | None = None) -> None:
-        self.facts.add((word, self.set_key(zero, [self.traits(q).key for q in quantities])))
-        if by is not None:
-            time = self.traits(by).key
-            self.facts.add((word, self.set_key(zero, [self.traits(q).key for q in quantities], time)))
-
-    @staticmethod
-    def set_key(zero: bool, keys: Sequence[str], by: str = "") -> str:
-        return f"{'=' if zero else '>='} {' '.join(sorted(keys))} {by}"
+    # Assumptions
 
     def begin(self, cofactors: Mapping[str, str], edges: Sequence[str] = ()) -> None:
         """Sorts the assumptions, and asks that the equations about states are kept.
@@ -357,6 +200,25 @@ class Argument:
         kinds, moving = self.statement.scalars, self.statement.motion
         return any(kinds.get(key) in ("state", "input") or key in moving for key in self._reads(assumption))
 
+    def usable(self, obligation: Obligation) -> list[Assumption]:
+        """The assumptions that an obligation may use, in their order."""
+        beside = obligation.beside
+        kept: Sequence[Assumption] = self.available if beside.only is None else beside.only
+        if beside.closed:
+            kept = [a for a in kept if self._is_about_constants(a) or self._is_closed(a)]
+        return [*kept, *beside.extra]
+
+    def _is_closed(self, assumption: Assumption) -> bool:
+        """Does it hold at limits of states at which it holds, for the same signals?"""
+        traits = [self.output_traits(ref) for ref in assumption.of]
+        strict = assumption.kind in (*STRICT, "positive_definite")
+        if strict or assumption.about == LEMMA or any(t.edges or t.jumps for t in traits):
+            return False
+        free = any(self.is_signal(name) for t in traits for name in t.reads)
+        return not (free and self.reads_states(assumption))
+
+    # What is composed
+
     def composed(self, obligation: Obligation, given: Sequence[Assumption]) -> Statement:
         """The statement of an obligation under some of the assumptions."""
         listing = composed(self.statement.listings, obligation.formulas, obligation.roles)
@@ -380,23 +242,6 @@ class Argument:
         size = round(count**0.5)
         tree = {"entries": [[r + size * c for c in range(size)] for r in range(size)]}
         return Claim(kind, OBLIGATION, (size, size), tree)
-
-    def usable(self, obligation: Obligation) -> list[Assumption]:
-        """The assumptions that an obligation may use, in their order."""
-        beside = obligation.beside
-        kept: Sequence[Assumption] = self.available if beside.only is None else beside.only
-        if beside.closed:
-            kept = [a for a in kept if self._is_about_constants(a) or self._is_closed(a)]
-        return [*kept, *beside.extra]
-
-    def _is_closed(self, assumption: Assumption) -> bool:
-        """Does it hold at limits of states at which it holds, for the same signals?"""
-        traits = [self.output_traits(ref) for ref in assumption.of]
-        strict = assumption.kind in (*STRICT, "positive_definite")
-        if strict or assumption.about == LEMMA or any(t.edges or t.jumps for t in traits):
-            return False
-        free = any(self.is_signal(name) for t in traits for name in t.reads)
-        return not (free and self.reads_states(assumption))
 
     def mint(self, name: str, formulas: Sequence[str]) -> None:
         """A listing of the rules' own, of formulas over the states."""
@@ -465,7 +310,3 @@ def single(listing: Listing, k: int) -> Listing:
         if r in needed
     )
     return Listing(code, (new[listing.outputs[k]],), "")
-
-
-def _starred(name: str) -> str:
-    return split_name(name)[0]

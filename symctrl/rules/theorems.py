@@ -10,11 +10,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from symctrl.certify import digest, tool
-from symctrl.collect import UndefinedLetter
 from symctrl.context import current
 from symctrl.expr import Nonconforming
 from symctrl.inputs import files_of
 from symctrl.kernel.values import Sentence
+from symctrl.listings import UndefinedLetter
 from symctrl.problem import Problem
 from symctrl.rows import Row, Twins
 from symctrl.rules.carries import conclude
