@@ -19,7 +19,7 @@ from symctrl.statements import LaplacianBound
 if TYPE_CHECKING:
     import networkx as nx
 
-    from symctrl.spectra import LargestEigenvalue
+    from symctrl.spectral.matrix import LargestEigenvalue
 
 
 class Declares(Protocol):
@@ -198,7 +198,7 @@ class Fleet:
 
     def largest_eigenvalue(self, graph: nx.Graph | None = None) -> LargestEigenvalue:
         """Exact rational bounds of the largest eigenvalue of the Laplacian."""
-        from symctrl.spectra import largest_eigenvalue  # numpy loads slowly
+        from symctrl.spectral.matrix import largest_eigenvalue  # numpy loads slowly
 
         return largest_eigenvalue(self._laplacian(graph))
 

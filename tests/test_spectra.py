@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from symctrl.decide.definiteness import decide_matrix
-from symctrl.spectra import largest_eigenvalue
+from symctrl.spectral.matrix import largest_eigenvalue
 
 
 @given(st.integers(2, 7), st.randoms(use_true_random=False))

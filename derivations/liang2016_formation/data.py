@@ -5,7 +5,7 @@ from fractions import Fraction
 from derivations.liang2016_formation.symbols import fleet, study
 from symctrl import nonnegative, positive, positive_definite
 from symctrl.expr import lift
-from symctrl.spectra import largest_eigenvalue
+from symctrl.spectral.matrix import largest_eigenvalue
 from symctrl.statements import positive_semidefinite
 from symctrl.vectors import eye, skew, stack
 

@@ -19,13 +19,14 @@ from symctrl.kernel import (
     conforms,
     definite,
     identity,
+    laplacian,
     squeeze,
     theorem,
     total,
     witness,
 )
-from symctrl.kernel.certificate import Declined, Invalid, Refused
-from symctrl.kernel.loading import MAX_TEXT, load, read, read_all
+from symctrl.kernel.certificate import Declined, Invalid, Refused, text_field, typed
+from symctrl.kernel.loading import MAX_TEXT, load, opened, read, read_all
 from symctrl.kernel.printing import line, print_statement
 from symctrl.kernel.values import Certificate, Condition, Statement
 
@@ -81,10 +82,29 @@ def _attempt(work: Callable[[Any], Answer], about: Any) -> Answer:
 
 
 def _decide(part: Any) -> Answer:
+    if type(part) is dict and laplacian.is_meant(part.get("statement")):
+        return _decide_laplacian(part)
     certificate = read(part)
     statement = print_statement(certificate.statement, refuted=certificate.proof.get("kind") in REFUTING)
     done = _attempt(_verify, certificate)
     return Answer(done.status, statement, done.reason)
+
+
+def _decide_laplacian(part: Any) -> Answer:
+    """A statement about a graph alone, with proofs of its own."""
+    top = opened(part)
+    text_field(top["tool"], "tool")
+    proof = typed(top["proof"], dict, "proof")
+    statement = laplacian.read_statement(top["statement"])
+    kind = proof.get("kind")
+    text = laplacian.print_statement(statement, refuted=kind in REFUTING)
+    done = _attempt(lambda _: _laplacian_answer(statement, proof), None)
+    return Answer(done.status, text, done.reason)
+
+
+def _laplacian_answer(statement: laplacian.Statement, proof: dict[str, Any]) -> Answer:
+    laplacian.verify(statement, proof)
+    return Answer("valid", "", f"verified by its {proof['kind']}")
 
 
 def _together(parts: Sequence[Answer]) -> Answer:

@@ -61,15 +61,21 @@ def read_all(text: str) -> list[Any]:
 
 def read(value: Any) -> Certificate:
     """A certificate from its JSON. Raises as `read_all` does."""
+    top = opened(value)
+    statement = read_statement(top["statement"])
+    require_closed(statement)
+    proof = typed(top["proof"], dict, "proof")
+    return Certificate(text_field(top["tool"], "tool"), statement, proof)
+
+
+def opened(value: Any) -> dict[str, Any]:
+    """The fields of a certificate, its format and digest being right. Raises as `read_all` does."""
     version = value.get("format") if type(value) is dict else None
     if version != FORMAT:
         raise Unreadable(f"its format is {str(version)[:60]!r}, and only {FORMAT!r} is known")
     top = fields(value, ("format", "tool", "statement", "proof", "sha256"), "the certificate")
     _require_digest(top, "the certificate")
-    statement = read_statement(top["statement"])
-    require_closed(statement)
-    proof = typed(top["proof"], dict, "proof")
-    return Certificate(text_field(top["tool"], "tool"), statement, proof)
+    return top
 
 
 def _require_digest(top: dict[str, Any], what: str) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from math import ceil, floor
+from math import ceil, floor, lcm
 
 import numpy as np
 
@@ -41,11 +41,11 @@ def largest_eigenvalue(rows: Rows) -> LargestEigenvalue:
 
 def _integer(rows: list[list[Fraction]], value: int) -> LargestEigenvalue | None:
     """The bounds, if the integer is the largest eigenvalue."""
-    shifted = _shifted(rows, Fraction(value))
-    answer = decide_matrix(shifted)
+    rest = shifted(rows, Fraction(value))
+    answer = decide_matrix(rest)
     if answer.definiteness != "positive semidefinite":
         return None
-    vector = tuple(null_vector(shifted))
+    vector = tuple(null_vector(rest))
     return LargestEigenvalue(Fraction(value), Fraction(value), vector)
 
 
@@ -55,11 +55,19 @@ def _bracket(rows: list[list[Fraction]], value: float, vector: np.ndarray) -> La
     product = [sum((a * b for a, b in zip(row, x, strict=True)), Fraction(0)) for row in rows]
     quotient = sum((a * b for a, b in zip(x, product, strict=True)), Fraction(0)) / sum(e * e for e in x)
     high = Fraction(ceil(value * scale), scale)
-    while decide_matrix(_shifted(rows, high)).definiteness == "not positive semidefinite":
+    while decide_matrix(shifted(rows, high)).definiteness == "not positive semidefinite":
         high += Fraction(1, scale)
     return LargestEigenvalue(Fraction(floor(quotient * scale), scale), high, tuple(x))
 
 
-def _shifted(rows: list[list[Fraction]], c: Fraction) -> list[list[Fraction]]:
+def shifted(rows: Rows, c: Fraction) -> list[list[Fraction]]:
     """c I - A."""
-    return [[(c if r == k else 0) - entry for k, entry in enumerate(row)] for r, row in enumerate(rows)]
+    return [
+        [(c if r == k else Fraction(0)) - entry for k, entry in enumerate(row)] for r, row in enumerate(rows)
+    ]
+
+
+def integers(x: Sequence[Fraction]) -> tuple[int, ...]:
+    """A multiple of x in integers."""
+    common = lcm(*(a.denominator for a in x))
+    return tuple(a.numerator * (common // a.denominator) for a in x)

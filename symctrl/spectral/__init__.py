@@ -1,0 +1,1 @@
+"""Extreme eigenvalues between exact rationals, of small matrices and of the Laplacians of large graphs."""
