@@ -6,7 +6,7 @@ reaches, and those of the study's assumptions that speak only of symbols that oc
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
@@ -95,6 +95,10 @@ class Collector(Listings):
         for used in using:
             if isinstance(used.claim, Equal):
                 made = self._replaced(made, used.claim)
+                reach = Reach(made)
+                reach.listing("claim")
+                listing = f"using {_label(used.claim.left)}"
+                refuse_other_loops(used.claim, {law for name, _, law in reach.visits if name == listing})
         return pruned(made)
 
     def _advice(self, hint: Hint) -> Advice:
@@ -197,12 +201,6 @@ class Collector(Listings):
         if not isinstance(inner, Named | Rate):
             raise StudyError(f"using: {used.text()} is the rate of an expression without a name")
         shown = self._scalars_of(inner, record.body)
-        reach = Reach(made)
-        reach.listing("claim")
-        if any(name in shown and law != record.law for name, law in reach.rated):
-            raise StudyError(
-                f"using: {used.text()} is a rate under the law {record.law}, and the claim takes another"
-            )
         return with_motion(made, inner.label, shown, listing) if shown[0] in made.names else made
 
     def _defined(self, made: Problem, used: Equal) -> Problem:
@@ -247,6 +245,20 @@ class Collector(Listings):
     @staticmethod
     def _scalars_of_symbol(x: Expr) -> list[str]:
         return list(component_names(x.args[0].replace(".i", ".*"), x.shape, x.args[2]))
+
+
+def refuse_other_loops(used: Equal, laws: Set[str | None]) -> None:
+    """An equation for a rate under a law is about the loop that this law closes; without a law it is about
+    every loop. Raises StudyError where a rate is taken under another law.
+    """
+    record = used.left.args[0] if used.left.op == "deferred" else None
+    if not isinstance(record, Rate) or record.law is None:
+        return
+    for other in sorted(str(law) for law in laws - {record.law}):
+        taken = "without a law" if other == "None" else f"under the law {other}"
+        raise StudyError(
+            f"using: {used.text()} is a rate under the law {record.law}, and here a rate is taken {taken}"
+        )
 
 
 def _label(left: Expr) -> str:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from symctrl.collect import Collector, Used, _sides
+from symctrl.collect import Collector, Used, _sides, refuse_other_loops
 from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
 from symctrl.facts import SETS, Fact
@@ -17,7 +17,7 @@ from symctrl.kernel.compose import rates_of
 from symctrl.kernel.form import read_statement
 from symctrl.problem import ADVICE, PROVED, Assumption, Claim, Meaning, Output, Problem, Use, split, star
 from symctrl.reach import Reach, _without_idle_law
-from symctrl.records import rate
+from symctrl.records import Rate, rate
 from symctrl.statements import Equal
 from symctrl.theorem import About, Theorem
 from symctrl.written import Law, StudyError
@@ -208,10 +208,20 @@ class Loop:
         for used in self.using:
             if isinstance(used.claim, Equal):
                 made = c._replaced(made, used.claim)
+                self._refuse_other_loops(used.claim, laws.keys())
         made = self._freed(made)
         names = {n: replace(m, law=self.law) if m.law in own else m for n, m in made.names.items()}
         listings = {name: tape for name, tape in made.listings.items() if name != ADVICE}
         return replace(made, names=names, listings=listings, uses=self._uses())
+
+    def _refuse_other_loops(self, used: Equal, known: Collection[str]) -> None:
+        """An equation under one of the laws that close the loop holds in the loop, for it holds whatever the
+        other inputs are; beside them no other law may be taken.
+        """
+        record = used.left.args[0] if used.left.op == "deferred" else None
+        own: set[str | None] = {law.name for law in self.laws}
+        joint = {record.law} if isinstance(record, Rate) and record.law in own else own or {None}
+        refuse_other_loops(used, {*joint, *(law for law in known if law != self.law)})
 
     def _freed(self, made: Problem) -> Problem:
         """The problem with the definitions that are free as signals."""
