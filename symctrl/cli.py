@@ -143,7 +143,9 @@ def verify(
     from symctrl.parallel import Request
     from symctrl.table import settled
 
-    requests = [Request(name, graph, _values(setting or [])) for name in _chosen(studies or [], every)]
+    requests = [
+        Request(name, graph, _values(setting or [])) for name in _chosen("verify", studies or [], every)
+    ]
     decided = runs.decide(requests, claim or None, jobs=jobs, fresh=fresh, watch=_watch)
     if certificates is not None:
         files.refuse_unwritable_folder(certificates)
@@ -158,6 +160,26 @@ def verify(
     answers = [report.as_json(tool()) for report in reports]
     _emit(json, answers if every or len(answers) > 1 else answers[0])
     raise typer.Exit(0 if all(settled(row, strict) for report in reports for row in report.rows) else 1)
+
+
+@app.command()
+def report(
+    studies: Annotated[list[str] | None, typer.Argument(metavar="STUDY...", show_default=False)] = None,
+    every: Annotated[bool, typer.Option("--all", help="All installed studies.")] = False,
+    out: Annotated[
+        Path, typer.Option(metavar="DIR", help="The folder of the pages; it is made if it is not there.")
+    ] = Path("reports"),
+) -> None:
+    """Write one HTML page for each study, DIR/STUDY.html, and DIR/index.html over all pages there.
+
+    A page needs nothing but itself: what holds, what fails, what holds instead, and how to check it. Verdicts
+    of earlier runs are used, as by verify. Exits 0 when the pages are written, whatever they say.
+    """
+    os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    from symctrl.report import writing
+
+    for path in writing.write(_chosen("report", studies or [], every), out, _watch):
+        print(f"wrote {path}")
 
 
 @app.command()
@@ -204,15 +226,17 @@ def posdef(
     raise typer.Exit(0 if len(answers) > 1 else {"proved": 0, "refuted": 1}.get(answers[0]["verdict"], 3))
 
 
-def _chosen(names: Sequence[str], every: bool) -> list[str]:
+def _chosen(command: str, names: Sequence[str], every: bool) -> list[str]:
     from symctrl import registry
 
     if every and names:
-        raise InputError("verify: give the names of studies or --all, not both")
+        raise InputError(f"{command}: give the names of studies or --all, not both")
     if not every and not names:
-        raise InputError("verify: which study? Give names or files, or --all; `symctrl studies` lists names")
+        raise InputError(
+            f"{command}: which study? Give names or files, or --all; `symctrl studies` lists names"
+        )
     if every and not registry.installed():
-        raise InputError("verify: --all, but no study is installed")
+        raise InputError(f"{command}: --all, but no study is installed")
     return list(names) or list(registry.installed())
 
 

@@ -50,7 +50,7 @@ def write_certificates(report: Report, target: Path) -> None:
 
     Raises InputError where two ids have one file name, or a file cannot be written.
     """
-    paths = {row.id: target / _file_name(report.study) / f"{_file_name(row.id)}.json" for row in report.rows}
+    paths = {row.id: target / file_name(report.study) / f"{file_name(row.id)}.json" for row in report.rows}
     first: dict[Path, str] = {}
     for name, path in paths.items():
         if first.setdefault(path, name) != name:
@@ -111,5 +111,6 @@ def _askable(study: Study) -> set[str]:
     return {*ids, *(name.partition("[")[0] for name in ids)}
 
 
-def _file_name(name: str) -> str:
+def file_name(name: str) -> str:
+    """The name of a study or claim as that of a file or folder of certificates."""
     return re.sub(r"[^A-Za-z0-9._-]", "_", name)
