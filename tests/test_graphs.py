@@ -12,6 +12,7 @@ FAMILIES = {
     "path": (1, nx.path_graph),
     "star": (2, lambda n: nx.star_graph(n - 1)),
     "complete": (1, nx.complete_graph),
+    "tree": (1, lambda n: nx.full_rary_tree(2, n)),
 }
 
 
@@ -37,7 +38,13 @@ def test_families_are_those_of_networkx_with_nodes_from_1(family, extra):
         ("ring:٣", "whole number"),
         ("ring:" + "9" * 5000, "whole number"),
         ("complete:100000", "more than"),
-        ("wheel:5", "neither a file nor one of ring:N, path:N, star:N, complete:N"),
+        ("tree:0", "tree has at least 1 node"),
+        ("grid:0x3", "grid has at least 1 row and column"),
+        ("grid:9", "rows and columns like 3x4, not '9'"),
+        ("grid:3x", "rows and columns"),
+        ("grid:3X4", "rows and columns"),
+        ("grid:2000x2000", "more than"),
+        ("wheel:5", "neither a file nor one of ring:N, path:N, star:N, complete:N, tree:N, grid:RxC"),
         ("ring", "neither a file"),
         ("", "neither a file"),
         (".", "neither a file"),
@@ -47,6 +54,15 @@ def test_a_wrong_spec_is_named_in_one_line(spec, says):
     with pytest.raises(graphs.GraphSpecError, match=says) as caught:
         graphs.parse(spec)
     assert "\n" not in str(caught.value)
+
+
+@given(st.integers(1, 5), st.integers(1, 5))
+def test_a_grid_is_that_of_networkx_row_by_row(rows, columns):
+    graph = graphs.parse(f"grid:{rows}x{columns}")
+    oracle = nx.grid_2d_graph(rows, columns)
+    assert list(graph) == [str(k) for k in range(1, rows * columns + 1)]
+    names = {(r, c): str(r * columns + c + 1) for r, c in oracle}
+    assert graph.adj == nx.relabel_nodes(oracle, names).adj
 
 
 names = st.from_regex(r"[A-Za-z0-9_]{1,3}", fullmatch=True)
@@ -93,6 +109,38 @@ def test_a_wrong_file_is_named_with_its_line(tmp_path, content, line, says):
     assert "\n" not in str(caught.value)
     if line is not None:
         assert f"line {line}:" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("content", "says"),
+    [
+        ('<?xml version="1.0"?>\n<graphml/>\n', "XML"),
+        ('{"nodes": []}\n', "JSON"),
+        ("[[1, 2]]\n", "JSON"),
+        ("\n# made by hand\n  strict graph {\n1 -- 2\n}\n", "DOT"),
+        ('digraph "a"\n{\n', "DOT"),
+        ("graph [\n  node [ id 1 ]\n]\n", "GML"),
+        ("*Vertices 3\n", "Pajek"),
+        ("%%MatrixMarket matrix coordinate\n", "Matrix Market"),
+        ("source,target\n1,2\n", "commas"),
+        ("1; 2\n", "commas"),
+    ],
+)
+def test_a_file_of_another_format_is_told_which_is_wanted(tmp_path, content, says):
+    path = tmp_path / "g.graph"
+    path.write_text(content, encoding="utf-8")
+    with pytest.raises(graphs.GraphSpecError, match=f'{says}.*two node names a line, like "1 2"') as caught:
+        graphs.parse(str(path))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("content", ["graph\na b\n", "graph a\n", "a b # not a, table\n", "Creator\n"])
+def test_a_node_may_be_called_like_a_word_of_another_format(tmp_path, content):
+    path = tmp_path / "g.txt"
+    path.write_text(content, encoding="utf-8")
+    assert list(graphs.parse(str(path))) == [
+        word for word in ("graph", "a", "b", "Creator") if word in content.split("#")[0].split()
+    ]
 
 
 def test_a_file_that_is_not_text_is_refused(tmp_path):

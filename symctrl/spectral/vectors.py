@@ -17,7 +17,7 @@ from math import ceil
 import numpy as np
 
 from symctrl.spectral.network import Array, Network
-from symctrl.spectral.witness import INT64, lanczos, signless_times
+from symctrl.spectral.witness import INT64, dot, lanczos, signless_times
 
 DIGITS = 6  # of a bound that is searched for
 GAP = 1e-6  # at which the search is over
@@ -120,7 +120,7 @@ class Search:
 
     def _raise_least(self, x: Array) -> None:
         product = signless_times(self.network)(x)
-        self.least = max(self.least, float(x @ product) / float(x @ x))
+        self.least = max(self.least, dot(x, product) / dot(x, x))
 
     def _solution(self, t: float) -> Array | None:
         """Floats with (t I - D - A) x near 1, or None."""
@@ -133,20 +133,20 @@ class Search:
         x = 1 / margin
         rest = adjacency @ x
         ready = rest / margin
-        way, size = ready, float(rest @ ready)
+        way, size = ready, dot(rest, ready)
         for _ in range(ITERATIONS):
             if np.abs(rest).max() < 0.25:
                 return x
             self.work += 1
             product = margin * way - adjacency @ way
-            curvature = float(way @ product)
+            curvature = dot(way, product)
             if curvature <= 0:
                 self.least = max(self.least, t)
                 return None
             x = x + (size / curvature) * way
             rest = rest - (size / curvature) * product
             ready = rest / margin
-            size, last = float(rest @ ready), size
+            size, last = dot(rest, ready), size
             way = ready + (size / last) * way
         return None
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from fractions import Fraction
+from math import sqrt
 
 import numpy as np
 
@@ -45,6 +46,11 @@ def signless_times(network: Network) -> Callable[[Array], Array]:
     return lambda x: degrees * x + adjacency @ x
 
 
+def dot(x: Array, y: Array) -> float:
+    """The scalar product, the same for any number of threads."""
+    return float((x * y).sum())
+
+
 def lanczos(times: Callable[[Array], Array], size: int, steps: int, start: Array | None = None) -> Array:
     """Floats, shape (size,), near the eigenvector of the largest eigenvalue of a symmetric matrix.
 
@@ -55,7 +61,7 @@ def lanczos(times: Callable[[Array], Array], size: int, steps: int, start: Array
     diagonal, beside = _tridiagonal(times, start, steps)
     chosen = _largest(diagonal, beside)
     found = np.zeros(size)
-    before, now = np.zeros(size), start / np.linalg.norm(start)
+    before, now = np.zeros(size), start / sqrt(dot(start, start))
     for k, c in enumerate(chosen):
         found += c * now
         if k < len(chosen) - 1:
@@ -68,14 +74,14 @@ def _tridiagonal(
     times: Callable[[Array], Array], start: Array, steps: int
 ) -> tuple[list[float], list[float]]:
     """The diagonal and what stands beside it."""
-    before, now = np.zeros(len(start)), start / np.linalg.norm(start)
+    before, now = np.zeros(len(start)), start / sqrt(dot(start, start))
     diagonal: list[float] = []
     beside: list[float] = []
     for k in range(steps):
         after = times(now)
-        diagonal.append(float(now @ after))
+        diagonal.append(dot(now, after))
         after -= diagonal[k] * now + (beside[k - 1] * before if k else 0)
-        length = float(np.linalg.norm(after))
+        length = sqrt(dot(after, after))
         if k == steps - 1 or length < 1e-10 * (1 + abs(diagonal[0])):
             break
         beside.append(length)
