@@ -10,16 +10,16 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tests.arena import arguments, bad, bad_arguments, corner, false_arguments, good
+from tests.arena import arguments, bad, bad_arguments, corner, false_arguments, good, laplacians
 
 ROOT = Path(__file__).parent
 
 
 def main() -> None:
     expected = {}
-    rights = {**good.CASES, **arguments.CASES}
-    wrongs = {**bad.CASES, **bad_arguments.CASES, **false_arguments.CASES}
-    corners = {**corner.CASES, **bad_arguments.DECLINED}
+    rights = {**good.CASES, **arguments.CASES, **laplacians.GOOD}
+    wrongs = {**bad.CASES, **bad_arguments.CASES, **false_arguments.CASES, **laplacians.BAD}
+    corners = {**corner.CASES, **bad_arguments.DECLINED, **laplacians.CORNER}
     for folder, cases in (("good", rights), ("bad", wrongs), ("corner", corners)):
         for old in (ROOT / folder).glob("*.json"):
             old.unlink()
