@@ -16,10 +16,13 @@ class Units:
 
 @dataclass(frozen=True)
 class Twins:
-    """Negative twins: how many were made, and the text of those that are true all the same."""
+    """Negative twins: how many were made, the text of those that are true all the same, and of those that
+    counted as not proved because an error ended the attempt, with the error.
+    """
 
     tried: int
     still_true: tuple[str, ...] = ()
+    failed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

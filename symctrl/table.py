@@ -110,6 +110,8 @@ def _in_few_words(row: Row) -> str:
         said.append(f"units: {row.units.mismatch}")
     if row.twins is not None and row.twins.still_true:
         said.append(f"twins that hold too: {', '.join(row.twins.still_true)}")
+    if row.twins is not None and row.twins.failed:
+        said.append(f"twins not decided: {', '.join(row.twins.failed)}")
     return "; ".join(map(_shortened, said))
 
 

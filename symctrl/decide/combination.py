@@ -68,6 +68,8 @@ def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | N
     """
     field, signs = session.domain.field, session.domain.signs
     p = field.normal(session.carrier(value))
+    if p.is_zero():
+        return None
     for fact, kind in signs.facts:
         if kind == "positive" or (kind == "nonnegative" and not strict):
             quotient, rest = divmod(fact, p)

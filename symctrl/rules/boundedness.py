@@ -43,7 +43,8 @@ def _by_itself(chain: Chain, name: str) -> bool:
     near = _near(chain, name)
     if any(_below(chain, V, name) for V in near) or bounded_by_constants(chain, name):
         return True
-    return any(_shifted(chain, V, name) or _solved(chain, V, name) for V in _near(chain, name))
+    near = _near(chain, name)
+    return any(_shifted(chain, V, name) or _solved(chain, V, name) or _quartic(chain, V, name) for V in near)
 
 
 def _near(chain: Chain, name: str) -> list[str]:
@@ -113,6 +114,26 @@ def _completed(found: Algebra) -> list[Tape] | None:
     if not a or not linear or not found.is_constant(a) or not found.is_constant(linear):
         return None
     return _tapes(found, [a, domain.simplified(domain.mul_(linear, domain.inv_(domain.add_(a, a))))])
+
+
+def _quartic(chain: Chain, V: str, name: str) -> bool:
+    """By a fourth power in V with a constant factor a: a e^2 <= a e^4 + a/4."""
+    found = algebra(chain, [V, name], _fourth)
+    if not found:
+        return False
+    least, offset = (chain.q(tape) for tape in found)
+    table = {"word": "bounded", "how": "square", "e": name, "by": [V], "least": least, "offset": offset}
+    return chain.attempt("carries", table)
+
+
+def _fourth(found: Algebra) -> list[Tape] | None:
+    """a and a/4."""
+    V, e = found.values
+    at = symbol_of(found, e)
+    a = found.coefficient(V, {at: 4}) if at is not None else None
+    if not a or not found.is_constant(a):
+        return None
+    return _tapes(found, [a, found.session.domain.scaled(a, Fraction(1, 4))])
 
 
 def _solved(chain: Chain, s: str, name: str) -> bool:

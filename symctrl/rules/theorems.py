@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from typing import TYPE_CHECKING, Any
 
 from symctrl.certify import digest, tool
@@ -158,7 +158,7 @@ def _written(made: Decided) -> dict[str, Any]:
         "rows": [row.as_json() for row in made.rows],
         "rests_on": list(made.rests_on),
         "unmet": list(made.unmet),
-        "twins": None if made.twins is None else [made.twins.tried, list(made.twins.still_true)],
+        "twins": None if made.twins is None else [*astuple(made.twins)],
         "shown": list(made.shown),
     }
 
@@ -181,7 +181,8 @@ def _read(problem: Problem, kept: Mapping[str, Any]) -> Decided | None:
         Row(**row | {"rests_on": tuple(row["rests_on"]), "unmet": tuple(row["unmet"])})
         for row in kept["rows"]
     )
-    found = None if kept["twins"] is None else Twins(kept["twins"][0], tuple(kept["twins"][1]))
+    tried, *texts = kept["twins"] or (0,)
+    found = None if kept["twins"] is None else Twins(tried, *map(tuple, texts))
     rests_on, unmet, shown = (tuple(kept[name]) for name in ("rests_on", "unmet", "shown"))
     return Decided(problem, verdict, rows, rests_on, unmet, found, shown)
 

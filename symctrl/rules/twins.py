@@ -1,7 +1,8 @@
 """Twins of a proved theorem: each assumption dropped, each addend of a law with its sign turned.
 
 The argument must not close for a twin; where it does, it does not need the assumption, or the theorem does
-not depend on what the law says.
+not depend on what the law says. The argument was written for the theorem, and a twin may take it where nobody
+looked: an error there is said of the twin, which then counts as not proved, and is no end of the theorem.
 """
 
 from __future__ import annotations
@@ -37,16 +38,19 @@ def twins(
     """
     from symctrl.rules.theorems import attempt
 
-    tried, still = 0, []
+    tried, still, failed = 0, [], []
     for said, changed in (*_without(theorem), *_turned([study.laws[name] for name in laws])):
         tried += 1
         try:
             closes = attempt(Loop(study, theorem, id_, using, changed), entry, memory, thorough=False).closes
         except (Nonconforming, StudyError):
             continue
+        except Exception as error:
+            failed.append(f"{said}: {type(error).__name__}: {error}")
+            continue
         if closes:
             still.append(said)
-    return Twins(tried, tuple(still))
+    return Twins(tried, tuple(still), tuple(failed))
 
 
 def _without(theorem: Theorem) -> Iterator[tuple[str, Changed]]:
