@@ -1,4 +1,5 @@
 """One self-contained HTML page for each study, made from the verdicts alone.
 
-Data flows one way: verdicts and study (`build`), the page as data (`page`), HTML (`html`), files (`writing`).
+Data flows one way: verdicts and study (`build`), the page as data (`page`), its HTML (`rendering`), files
+(`writing`).
 """

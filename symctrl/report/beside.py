@@ -5,11 +5,11 @@ from __future__ import annotations
 import math as real
 from collections.abc import Iterator, Sequence
 
-from symctrl.latex import latex
 from symctrl.report.claims import place
 from symctrl.report.mathml import math
 from symctrl.report.names import Group, few
 from symctrl.report.page import Assumption, Evidence, EvidenceLine, Link, Scope, TwinsBlock
+from symctrl.report.studyblock import letter
 from symctrl.report.words import counted
 from symctrl.rows import Report, Row
 from symctrl.study import Study
@@ -112,10 +112,10 @@ def _chosen(study: Study) -> Iterator[Assumption]:
 
 def _open(study: Study) -> Iterator[Assumption]:
     """Parameters without a value: verdicts hold for all values that meet the assumptions."""
-    for symbol in study.symbols.values():
+    for name, symbol in study.symbols.items():
         if symbol.kind == "parameter" and not symbol.values:
             yield Assumption(
-                "no value", math(latex(symbol.expr)), "", "every value that meets the assumptions"
+                "no value", math(letter(name, symbol)), "", "every value that meets the assumptions"
             )
 
 

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 
 from symctrl.report import words
-from symctrl.report.mathml import math
+from symctrl.report.mathml import math, signs
 from symctrl.report.names import SHAPES, Group, anchor, chip, numbers, standing_chip
 from symctrl.report.page import Chip, ClaimLine, Count, Header, Link, Mark, MarkGroup, Note
 from symctrl.rows import Report, Row
 
 NOTES = 4
+LONG = 45  # signs of a formula that is shown once on a page
+PARTS = 2  # of a claim of many that are shown
+_BETWEEN = r",\quad "  # what stands between the parts of a claim
 
 
 def header(report: Report, title: str, grouped: Sequence[Group], numbered: int) -> Header:
@@ -122,18 +126,40 @@ def _line(group: Group, row: Row) -> ClaimLine:
     printed, corrected = _chips(group, row)
     failed = row.verdict != "proved" or not row.stands
     target = anchor(group.base, "f") if group.fails else anchor(row.id, "cert")
+    formula, more = _formula(group, row)
     return ClaimLine(
         anchor=anchor(row.id),
         id=row.id,
         equation=row.equation,
         sentence=row.statement,
-        formula=math(row.latex),
+        formula=math(formula),
+        long=signs(formula) > 2 * LONG,
+        more=more,
         reading=row.id.partition("[")[2].rstrip("]") or None,
         printed=printed,
         corrected=corrected,
         evidence=Link(_evidence(row), target),
         attention=failed,
     )
+
+
+def _formula(group: Group, row: Row) -> tuple[str, str]:
+    """The formula in LaTeX, and words for what is left out: the same form again, many parts of one form."""
+    first = group.rows[0]
+    if row is not first and _form(row.latex) == _form(first.latex) and row.latex:
+        return "", "The formula has the form of the first reading."
+    if group.fails and signs(row.latex) > LONG:
+        return "", "The formula stands below."
+    parts = row.latex.split(_BETWEEN)
+    if row.kind != "all" or len(parts) <= PARTS + 1:
+        return row.latex, ""
+    return _BETWEEN.join(parts[:PARTS]), f"And {len(parts) - PARTS} more, each with its own proof."
+
+
+def _form(latex: str) -> str:
+    """The formula without its numbers, and with one in the place of each matrix."""
+    plain = re.sub(r"\\begin\{pmatrix\}.*?\\end\{pmatrix\}", "0", latex)
+    return re.sub(r"-?\\frac\{\d+\}\{\d+\}|-?[\d.]+", "0", plain)
 
 
 def _evidence(row: Row) -> str:

@@ -8,10 +8,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from difflib import SequenceMatcher
 
-from symctrl.report.formula import Element, row
+from symctrl.report.formula import BRACKETS, Element, row
 
 MARKED_AT_MOST = 0.7  # of the signs; where more differ, the two are simply different
-_NEUTRAL = frozenset("()[]{}")
 _ROWS = ("mrow", "mtd", "msqrt", "math")  # elements that take any number of parts
 
 Elements = tuple[Element, ...]
@@ -61,7 +60,7 @@ class _Tint:
         if not part.parts:
             differs = self.at not in self.same
             self.at += 1
-            neutral = part.tag == "mspace" or part.text in _NEUTRAL or not part.text
+            neutral = part.tag == "mspace" or part.text in BRACKETS or not part.text
             return part, None if neutral else differs
         told = [self._one(inner) for inner in part.parts]
         counted = {differs for _, differs in told if differs is not None}

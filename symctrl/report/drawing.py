@@ -86,9 +86,8 @@ def _label(x: float, y: float, chip: Chip, text: str, room: float) -> str:
 
 
 def _icon(x: float, y: float, chip: Chip) -> str:
-    frame = f'x="{x:g}" y="{y - ICON / 2:g}" width="{ICON}" height="{ICON}"'
-    use = f'<use href="#{chip.shape}"></use>'
-    return f'<svg {frame} class="v {chip.shape}" aria-hidden="true">{use}</svg>'
+    place = f'x="{x:g}" y="{y - ICON / 2:g}" width="{ICON}" height="{ICON}"'
+    return f'<use href="#{chip.shape}" {place} class="{chip.shape}"/>'
 
 
 def _text(x: float, y: float, text: str, room: float, style: str) -> str:

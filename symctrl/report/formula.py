@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 _TOKEN = re.compile(r"\\([A-Za-z]+|.)|(\d+(?:\.\d+)?)|(\s+)|(.)", re.DOTALL)
 
-_GREEK = {
+GREEK = {
     "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ϵ", "zeta": "ζ", "eta": "η",
     "theta": "θ", "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π",
     "rho": "ρ", "sigma": "σ", "tau": "τ", "upsilon": "υ", "phi": "ϕ", "chi": "χ", "psi": "ψ", "omega": "ω",
@@ -49,6 +49,7 @@ _LETTERS = {"mathsf": 0x1D5A0, "mathtt": 0x1D670, "mathbb": 0x1D538}  # of a cap
 _BOARD = {"C": "ℂ", "N": "ℕ", "Q": "ℚ", "R": "ℝ", "Z": "ℤ"}
 RELATIONS = frozenset("=≥≤≠≻⪰≺⪯⟹⟺→∈<>")
 SIGNS = frozenset("+−")
+BRACKETS = frozenset("()[]{}")
 
 
 @dataclass(frozen=True)
@@ -138,13 +139,13 @@ class _Reader:
             return [Element("mn", text=token)]
         if token.isalpha():
             return [Element("mi", text=token)]
-        if token in "()[]|":
+        if token == "|":
             return [Element("mo", text=token, attributes=' stretchy="false"')]
         return [Element("mo", text={"-": "−", "*": "∗"}.get(token, token))]
 
     def _command(self, name: str) -> list[Element]:
-        if name in _GREEK:
-            return [Element("mi", text=_GREEK[name])]
+        if name in GREEK:
+            return [Element("mi", text=GREEK[name])]
         if name in _OPERATORS:
             return [Element("mo", text=_OPERATORS[name])]
         if name in _SPACES:
@@ -153,9 +154,7 @@ class _Reader:
         if name in _FUNCTIONS:
             return [Element("mi", text=name)]
         if name in _ACCENTS:
-            return [
-                Element("mover", (self._argument(), Element("mo", text=_ACCENTS[name])), "", ' accent="true"')
-            ]
+            return [_accented(self._argument(), _ACCENTS[name])]
         if name in ("frac", "tfrac", "dfrac"):
             return [Element("mfrac", (self._argument(), self._argument()))]
         if name == "sqrt":
@@ -216,21 +215,31 @@ class _Reader:
         return Element("mrow", (_fence("(", "prefix"), table, _fence(")", "postfix")))
 
 
+def _accented(part: Element, sign: str) -> Element:
+    """The accent over a letter, not over its subscript."""
+    if part.tag in ("msub", "msubsup"):
+        return Element(part.tag, (_accented(part.parts[0], sign), *part.parts[1:]))
+    return Element("mover", (part, Element("mo", text=sign)), "", ' accent="true"')
+
+
 def _signed(parts: Sequence[Element]) -> list[Element]:
-    """The parts with minus signs told apart: one that begins, or follows a sign or relation, is a prefix."""
+    """The parts with signs told apart: one that follows a sign or relation is marked as a prefix."""
     told: list[Element] = []
     for k, part in enumerate(parts):
         if part.is_operator and part.text in SIGNS and not part.attributes:
             before = next((p for p in reversed(parts[:k]) if p.tag != "mspace"), None)
-            leads = before is None or (before.is_operator and before.text in RELATIONS | SIGNS | set(",⋅×"))
-            told.append(Element("mo", text=part.text, attributes=f' form="{"prefix" if leads else "infix"}"'))
+            leads = (
+                before is not None and before.is_operator and before.text in RELATIONS | SIGNS | set(",⋅×")
+            )
+            told.append(Element("mo", text=part.text, attributes=' form="prefix"' if leads else ""))
         else:
             told.append(part)
     return told
 
 
 def _fence(text: str, form: str) -> Element:
-    return Element("mo", text=text, attributes=f' fence="true" form="{form}"')
+    """A bracket; browsers know on which side it stands where its sign says so."""
+    return Element("mo", text=text, attributes="" if text in BRACKETS else f' fence="true" form="{form}"')
 
 
 def _styled(letter: str, capital: int) -> str:

@@ -30,6 +30,11 @@ def differ(printed: str, corrected: str) -> bool:
     return parse(printed) != parse(corrected)
 
 
+def signs(latex: str) -> float:
+    """About how many signs a formula is wide."""
+    return width(_elided(parse(latex)))
+
+
 def width(parts: Sequence[Element]) -> float:
     """About how many signs the elements are wide."""
     return sum(map(_width, parts))

@@ -75,6 +75,8 @@ class ClaimLine:
     equation: str
     sentence: str
     formula: Markup
+    long: bool  # is the formula folded away?
+    more: str
     reading: str | None
     printed: Chip | None
     corrected: Chip | None

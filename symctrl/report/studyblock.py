@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from symctrl.latex import latex
+from symctrl.latex import latex, name_latex
 from symctrl.model import Symbol
 from symctrl.report.mathml import differ, math, pair
 from symctrl.report.names import Group, anchor, chip, numbers
@@ -48,7 +48,12 @@ def _symbol(name: str, symbol: Symbol, units: Mapping[str, str]) -> SymbolLine:
     size = f", {rows} × {columns}" if columns > 1 else f", {rows} components" if rows > 1 else ""
     values = [str(value) for value in symbol.values.values()]
     shown = numbers(", ".join(values[:MANY])) + (", …" if len(values) > MANY else "")
-    return SymbolLine(math(latex(symbol.expr)), f"{kind}{size}", shown, units.get(name, ""))
+    return SymbolLine(math(letter(name, symbol)), f"{kind}{size}", shown, units.get(_bare(name), ""))
+
+
+def letter(name: str, symbol: Symbol) -> str:
+    """The symbol in LaTeX, without the node that it may belong to."""
+    return str(symbol.expr.args[1] or name_latex(name.removesuffix(".*")))
 
 
 def units_of(study: Study, report: Report) -> dict[str, str]:

@@ -110,7 +110,9 @@ def evidence(row: Row) -> str:
 def relies(row_equation: str, readings: Sequence[str]) -> str:
     """The head of a note: whom it concerns."""
     read = f", read as {in_words(readings)}" if readings else ""
-    return f"If you rely on {row_equation}{read}"
+    first = row_equation.partition(" ")[0]
+    what = "the text " if first in ("after", "before", "in") else "equation " if first[:1] == "(" else ""
+    return f"If you rely on {what}{row_equation}{read}"
 
 
 def instead(group: Group) -> str:

@@ -11,7 +11,7 @@ from symctrl import files, registry, runs
 from symctrl.certify import tool
 from symctrl.files import InputError
 from symctrl.parallel import Request
-from symctrl.report import build, html, shelf
+from symctrl.report import build, rendering, shelf
 from symctrl.report.shelf import INDEX
 
 Watch = Callable[[str], AbstractContextManager[Callable[[str], None]]]
@@ -32,7 +32,7 @@ def write(names: Sequence[str], out: Path, watch: Watch) -> list[Path]:
         if file == INDEX:
             raise InputError(f"study {study.name}: its page would be the index; give the study another name")
         entry = shelf.entry(made, file)
-        pages.append((file, entry, html.page(made, shelf.card(entry))))
+        pages.append((file, entry, rendering.page(made, shelf.card(entry))))
     return _written(out, pages)
 
 
@@ -48,7 +48,7 @@ def _written(out: Path, pages: Sequence[tuple[str, shelf.Entry, str]]) -> list[P
         for file, _, text in pages:
             files.write(out / file, text)
         entries = shelf.entries(out, [entry for _, entry, _ in pages])
-        files.write(out / INDEX, html.index(entries, tool()))
+        files.write(out / INDEX, rendering.index(entries, tool()))
     except OSError as error:
         raise InputError(f"{error.filename or out}: cannot be written: {error.strerror}") from None
     return [*(out / file for file, _, _ in pages), out / INDEX]

@@ -9,6 +9,7 @@ from typing import Any
 from markupsafe import Markup
 
 from symctrl.report.page import Page
+from symctrl.report.prose import prose
 from symctrl.report.shelf import Entry
 
 
@@ -30,13 +31,15 @@ def _rendered(template: str, **what: Any) -> str:
 def _environment() -> Any:
     import jinja2
 
-    return jinja2.Environment(
+    made = jinja2.Environment(
         loader=jinja2.PackageLoader("symctrl.report"),
         autoescape=True,
         undefined=jinja2.StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    made.filters["prose"] = prose
+    return made
 
 
 @cache
