@@ -19,7 +19,7 @@ from symctrl.statements import LaplacianBound
 if TYPE_CHECKING:
     import networkx as nx
 
-    from symctrl.spectral.matrix import LargestEigenvalue
+    from symctrl.spectral.bracket import Bracket
 
 
 class Declares(Protocol):
@@ -196,11 +196,11 @@ class Fleet:
         chosen = self.graph if graph is None else graph
         return lift([[(a == node) - (b == node) for a, b in chosen.edges] for node in chosen])
 
-    def largest_eigenvalue(self, graph: nx.Graph | None = None) -> LargestEigenvalue:
+    def largest_eigenvalue(self, graph: nx.Graph | None = None) -> Bracket:
         """Exact rational bounds of the largest eigenvalue of the Laplacian."""
-        from symctrl.spectral.matrix import largest_eigenvalue  # numpy loads slowly
+        from symctrl.spectral.bracket import extreme_eigenvalue  # numpy loads slowly
 
-        return largest_eigenvalue(self._laplacian(graph))
+        return extreme_eigenvalue(self.graph if graph is None else graph)
 
     def _laplacian(self, graph: nx.Graph | None) -> list[list[int]]:
         rows = self._rows(graph)

@@ -149,6 +149,8 @@ def _of_large(network: Network, thresholds: tuple[Fraction, ...], strict: bool) 
     search = Search(network)
     cheap = factor.is_cheap(network)
     size = Fraction(network.nodes)
+    if network.sides is not None:
+        low.consider(network.sides * search.best.x)
     if low.bound < min(search.best.bound, size):
         low.improve(lanczos(laplacian_times(network), network.nodes, STEPS))
         search.tighten(low.bound, thresholds, strict)

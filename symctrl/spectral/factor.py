@@ -75,5 +75,6 @@ def _factors(network: Network, shift: float) -> Any:
 
 
 def _column(nodes: Array, values: Array) -> list[int]:
-    kept = [k for k in np.argsort(nodes).tolist() if values[k]]
-    return [int(number) for k in kept for number in (nodes[k], values[k])]
+    order = np.argsort(nodes)
+    kept = order[values[order] != 0]
+    return np.column_stack([nodes[kept], values[kept]]).astype(np.int64).ravel().tolist()
