@@ -27,6 +27,7 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions
 _UsageError: type[Any] = typer.BadParameter.__mro__[2]
 
 INTERRUPTED = 130
+GRAPH = "ring:N, path:N, star:N, complete:N, .. or a file of edges."
 
 JsonFile = Annotated[
     str | None, typer.Option("--json", metavar="FILE", help="Write JSON; - is standard output.")
@@ -117,9 +118,7 @@ def verify(
     claim: Annotated[
         list[str] | None, typer.Option(metavar="ID", help="Only this claim; repeatable.")
     ] = None,
-    graph: Annotated[
-        str | None, typer.Option(metavar="G", help="ring:N, path:N, star:N, complete:N or a file of edges.")
-    ] = None,
+    graph: Annotated[str | None, typer.Option(metavar="G", help=GRAPH)] = None,
     setting: Annotated[
         list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="An exact value; repeatable.")
     ] = None,
@@ -180,6 +179,44 @@ def report(
 
     for path in writing.write(_chosen("report", studies or [], every), out, _watch):
         print(f"wrote {path}")
+
+
+@app.command()
+def gains(
+    study: Annotated[str, typer.Argument(metavar="STUDY")],
+    *,
+    graph: Annotated[str | None, typer.Option(metavar="G", help=GRAPH)] = None,
+    sweep: Annotated[
+        list[str] | None,
+        typer.Option(metavar="NAME=LO:HI:COUNT", help="A map over COUNT cells of this gain; once or twice."),
+    ] = None,
+    setting: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="An exact value; repeatable.")
+    ] = None,
+    maximize: Annotated[
+        str | None, typer.Option(metavar="decay|margin", help="Look for the gains with the largest one.")
+    ] = None,
+    fresh: Annotated[bool, typer.Option("--fresh", help="Ignore the verdicts of earlier runs.")] = False,
+    json: JsonFile = None,
+    plot: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="The map as a picture: .png, .svg or .pdf.")
+    ] = None,
+) -> None:
+    """Decide which gains may be used: at a point, on a map, with the edge as a formula and the margin to it.
+
+    Exits 0 feasible, 1 infeasible, 3 undecided.
+    """
+    os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    from symctrl.gains import command
+
+    if json not in (None, "-"):
+        files.refuse_unwritable(Path(str(json)))
+    asked = command.Asked(study, graph, _values(setting or []), tuple(sweep or ()), maximize, fresh, plot)
+    found = command.run(asked, _watch)
+    if json != "-":
+        command.show(found)
+    _emit(json, found.as_json())
+    raise typer.Exit(command.exit_code(found))
 
 
 @app.command()

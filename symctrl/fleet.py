@@ -6,6 +6,7 @@ graph. Matrices of a graph (Laplacian, adjacency) are those of the instance at h
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -22,9 +23,21 @@ if TYPE_CHECKING:
     from symctrl.spectral.bracket import Bracket
 
 
+EIGENVALUE = "eigenvalue"
+
+
+class Declared(Protocol):
+    """A symbol of a study."""
+
+    @property
+    def expr(self) -> Expr: ...
+
+
 class Declares(Protocol):
     """What a fleet needs of its study: where symbols, assumptions and motions are entered."""
 
+    @property
+    def symbols(self) -> Mapping[str, Declared]: ...
     def declare(self, expr: Expr, kind: str, unit: str | None) -> Expr: ...
     def assume_definite(self, M: Expr) -> None: ...
     def assume_unit(self, q: Quaternion) -> None: ...
@@ -163,6 +176,18 @@ class Fleet:
     def eigenvalues_at_most(self, bound: Liftable) -> LaplacianBound:
         """The assumption that no eigenvalue of the graph's Laplacian exceeds a scalar of parameters."""
         return LaplacianBound(lift(bound))
+
+    @property
+    def eigenvalue(self) -> Expr:
+        """Any eigenvalue of the Laplacian of the graph at hand, in a condition on gains.
+
+        A matrix whose blocks are p_ij(L) (x) I, with polynomials p_ij of the Laplacian L, is definite exactly
+        if the small matrix of the p_ij(lambda) is for every eigenvalue lambda of L, for an orthogonal basis
+        of eigenvectors brings it to the block diagonal of these (Horn and Johnson, Matrix Analysis, 2.5).
+        """
+        if EIGENVALUE not in self.study.symbols:
+            self.study.declare(symbol(EIGENVALUE, (1, 1), r"\lambda"), "parameter", "1")
+        return self.study.symbols[EIGENVALUE].expr
 
     def degree(self, node: Node) -> Expr:
         """The number of neighbours of node i."""

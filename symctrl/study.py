@@ -34,6 +34,7 @@ class Study(Model):
         self.source = source
         self.laws: dict[str, Law] = {}
         self.entries: dict[str, Entry] = {}
+        self.conditions: dict[str, Entry] = {}
         self.numbers: list[str] = []
         self.rejections: dict[str, str] = {}
         self.arguments: list[ArgumentEntry] = []
@@ -82,6 +83,14 @@ class Study(Model):
             return made
 
         return decorate
+
+    def condition(self, equation: str, **options: Any) -> Callable[[Callable[..., Any]], Entry]:
+        """Decorator: what a step of the proof asks of the gains: one bound or matrix, or a list of these.
+
+        It is no claim, for it holds for some gains and not for others; `symctrl gains` decides for which. It
+        may speak of `fleet.eigenvalue`, and of `fleet.degree(i)` where it takes the node i.
+        """
+        return lambda function: enter(self, function, "condition", equation, **options)
 
     def argument(self, theorem: Entry | str) -> Callable[[Callable[[Run], Any]], ArgumentEntry]:
         """Decorator: a chain of rules for a theorem, line by line; the function takes every solution."""

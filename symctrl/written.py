@@ -21,7 +21,7 @@ class StudyError(ValueError):
 
 
 class Entered(Protocol):
-    """What an entry needs of its study: its name, its fleet, and the table of entries."""
+    """What an entry needs of its study: its name, its fleet, and the tables of claims and of conditions."""
 
     @property
     def name(self) -> str: ...
@@ -29,11 +29,13 @@ class Entered(Protocol):
     def of_fleet(self) -> Fleet | None: ...
     @property
     def entries(self) -> dict[str, Entry]: ...
+    @property
+    def conditions(self) -> dict[str, Entry]: ...
 
 
 @dataclass(frozen=True)
 class Entry:
-    """One function of a study. form: printed, corrected, claimed, definition or law.
+    """One function of a study. form: printed, corrected, claimed, definition, law or condition.
 
     id: the function's name. sentence: the first paragraph of its docstring. nodes: which of i and j it takes.
     readings: the values of its other argument, by name. when: the outcome that `finding` belongs to.
@@ -89,7 +91,7 @@ def enter(
     arguments.
     """
     name = function.__name__
-    if name in study.entries:
+    if name in study.entries or name in study.conditions:
         raise StudyError(f"there are two functions {name} in the study {study.name}; a name is the id of one")
     sentence = " ".join((inspect.getdoc(function) or "").split("\n\n")[0].split())
     sentence = sentence or why or ""
@@ -123,7 +125,7 @@ def enter(
         tuple(using),
         outcomes,
     )
-    study.entries[name] = entry
+    (study.conditions if form == "condition" else study.entries)[name] = entry
     return entry
 
 

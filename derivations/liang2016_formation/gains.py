@@ -87,6 +87,24 @@ def V_nonnegative_if(graph):
     )
 
 
+@study.condition("after (10)")
+def Pi_is_definite():
+    """Pi is positive definite."""
+    return [K_o - beta * fleet.eigenvalue > 0, beta * K_q > 0]
+
+
+@study.condition("before (5)")
+def Theta_is_definite(i):
+    """Theta_i is positive definite for every craft."""
+    return stiffness() - 2 * fleet.degree(i) * beta**2 > 0
+
+
+@study.condition("before (5)")
+def V_is_nonnegative():
+    """V is nonnegative."""
+    return stiffness() - beta**2 * fleet.eigenvalue >= 0
+
+
 @study.claimed("before (7)")
 def row_of_Q_inverse():
     """No row of the inverse of Q is longer than 1/2."""

@@ -111,7 +111,45 @@ def _point(made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.R
         if wrong is None:
             return place
         failed = wrong
-    raise NoPoint(f"no point was found at which all assumptions hold; the last to fail was {failed}")
+    resting = _at_rest(made, edges, generator, height)
+    if resting is None:
+        raise NoPoint(f"no point was found at which all assumptions hold; the last to fail was {failed}")
+    return resting
+
+
+def _at_rest(
+    made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int
+) -> Place | None:
+    """A point where all is zero that may be, and the constants of an assumption that fails are drawn again.
+
+    Only where moving points have failed: at rest too many claims hold that are false elsewhere.
+    """
+    names = _constant_names(made.problem)
+    constants = {name: _number(made, name, generator, height, 0) for name in names}
+    constants |= _constants(made, edges, generator, height, 0)
+    for attempt in range(DRAWS):
+        place = Place(_draw(made, edges, generator, 0, attempt, constants), edges)
+        try:
+            wrong = admissible(made.problem, place)
+        except (NoExactValue, ZeroDivisionError):
+            continue
+        if wrong is None:
+            return place
+        again = _constants_of(made, wrong) & constants.keys()
+        drawn = {name: _number(made, name, generator, height, attempt) for name in sorted(again)}
+        if not _read_by_a_false_one(made, Place({**constants, **drawn}, edges)):
+            constants = {**constants, **drawn}
+    return None
+
+
+def _constants_of(made: Recipe, text: str) -> set[str]:
+    """The symbols that the assumptions of this text read."""
+    reach = Reach(made.problem)
+    for assumption in made.problem.given:
+        if assumption.text == text:
+            for listing, _ in assumption.of:
+                reach.listing(listing)
+    return reach.read
 
 
 def _draw(
@@ -122,6 +160,7 @@ def _draw(
     attempt: int,
     constants: Mapping[str, Fraction],
 ) -> dict[str, Fraction]:
+    """Values of all symbols. height: of the numbers; 0 for a point at rest."""
     at = neighbours(edges)
     values = {
         name: constants[name]
@@ -139,7 +178,7 @@ def _draw(
                 values[local(name)] = entry
         for step in reversed(generator.choice(made.ways)):
             if isinstance(step, Sphere):
-                drawn = _on_sphere(len(step.names), generator, 0 if _rests(attempt) else height)
+                drawn = _on_sphere(len(step.names), generator, height)
                 for name, x in zip(sorted(step.names, key=made.positive.__contains__), drawn, strict=True):
                     values[local(name)] = step.radius * (abs(x) if name in made.positive else x)
             else:
@@ -158,15 +197,19 @@ def _constants(
     """Parameters that belong to no node; those of an assumption about these alone are drawn again until it
     holds.
     """
-    names = [n for n, kind in made.problem.scalars.items() if kind == "parameter" and ".*" not in n]
     values: dict[str, Fraction] = {}
-    again = names if made.constant else []
+    again = _constant_names(made.problem) if made.constant else []
     for more in range(DRAWS):
         values |= {name: _number(made, name, generator, height, attempt + more) for name in again}
         again = _read_by_a_false_one(made, Place(values, edges))
         if not again:
             break
     return values
+
+
+def _constant_names(problem: Problem) -> list[str]:
+    """Parameters that belong to no node."""
+    return [n for n, kind in problem.scalars.items() if kind == "parameter" and ".*" not in n]
 
 
 def _read_by_a_false_one(made: Recipe, place: Place) -> list[str]:
@@ -198,12 +241,12 @@ def _about_constants(problem: Problem) -> Iterator[tuple[Assumption, tuple[str, 
 def _number(made: Recipe, name: str, generator: random.Random, height: int, attempt: int) -> Fraction:
     """A small rational; every other attempt a power that keeps roots rational.
 
-    As attempts fail, what is positive grows and what is not shrinks, which most bounds want; now and then all
-    that may be zero is.
+    As attempts fail, what is positive grows or shrinks and all else shrinks, which most bounds want.
+    height 0: at rest.
     """
     low, high = made.between.get(name, (None, None))
-    if _rests(attempt) and name not in made.positive and (low or 0) <= 0 <= (high or 0):
-        return Fraction(0)
+    if height == 0:
+        return _least(name in made.positive, low, high)
     if low is not None and high is not None:
         part = generator.choice((0, 1, Fraction(generator.randint(0, height), height)))
         return low + (high - low) * part
@@ -217,13 +260,15 @@ def _number(made: Recipe, name: str, generator: random.Random, height: int, atte
     if low is not None or high is not None:
         return low + abs(value) if low is not None else Fraction(high or 0) - abs(value)
     if not signed:
-        return value * Fraction(2) ** generator.choice((0, shift))
+        return value * Fraction(2) ** generator.choice((0, shift, -shift))
     return value / Fraction(2) ** generator.choice((shift, generator.randint(0, shift)))
 
 
-def _rests(attempt: int) -> bool:
-    """Only where moving points have failed: at rest too many claims hold that are false elsewhere."""
-    return attempt >= TRIES_PER_POINT // 2 and attempt % 2 == 1
+def _least(positive: bool, low: Fraction | None, high: Fraction | None) -> Fraction:
+    """Zero, or the number closest to it that the bounds allow; 1 for what shall be positive."""
+    closest = max(low, Fraction(0)) if low is not None else Fraction(0)
+    closest = min(closest, high) if high is not None else closest
+    return Fraction(1) if positive and closest <= 0 and (high is None or high > 1) else closest
 
 
 def _on_sphere(count: int, generator: random.Random, height: int) -> list[Fraction]:
