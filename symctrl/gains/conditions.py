@@ -164,7 +164,8 @@ def _is_positive_gain(study: Study, statement: Statement) -> bool:
     """Is it what the study assumes of every gain?"""
     if not isinstance(statement, Bound) or not statement.strict or statement.expr.op != "symbol":
         return False
-    return study.symbols[statement.expr.args[0]].gain
+    symbol = study.symbols.get(statement.expr.args[0])
+    return symbol is not None and symbol.gain
 
 
 def _is_constant(study: Study, statement: Statement) -> bool:
