@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     import networkx as nx
 
 SMALL = 200  # nodes up to which exact elimination settles every case
+TINY = 30  # nodes up to which its certificate is checked as quickly as any
 STEPS = 150
 MORE_STEPS = 150
 METHODS = {
@@ -131,6 +132,11 @@ def _of_small(network: Network, thresholds: tuple[Fraction, ...]) -> Bracket:
         return replace(best, proof=_vector_proof(search), strict=search.best.strict)
     if network.nodes == best.high:
         return replace(best, proof={"kind": "size"}, strict=False)
+    if best.strict and network.nodes > TINY:
+        below = quotient(network, np.array(best.vector, dtype=object))
+        proof = factor.proof(network, best.high, float(below))
+        if proof is not None and _holds(network, best.high, proof):
+            return replace(best, proof=proof)
     return replace(best, proof={"kind": "elimination"})
 
 
