@@ -11,6 +11,13 @@ from difflib import SequenceMatcher
 from symctrl.report.formula import BRACKETS, Element, row
 
 MARKED_AT_MOST = 0.7  # of the signs; where more differ, the two are simply different
+_PLACES = {  # of the parts of an element that has a fixed number of them
+    "msub": ("", "_"),
+    "msup": ("", "^"),
+    "msubsup": ("", "_", "^"),
+    "munder": ("", "_"),
+    "mfrac": ("/", "÷"),
+}
 _ROWS = ("mrow", "mtd", "msqrt", "math")  # elements that take any number of parts
 
 Elements = tuple[Element, ...]
@@ -35,11 +42,9 @@ def _leaves(parts: Sequence[Element], where: str) -> Iterator[tuple[str, str]]:
     for part in parts:
         if not part.parts:
             yield part.text or part.tag, where
-        elif part.tag in ("msub", "msup", "msubsup", "mfrac", "munder"):
-            for k, inner in enumerate(part.parts):
-                yield from _leaves(
-                    (inner,), f"{where}{part.tag[1:]}{k}" if k or part.tag == "mfrac" else where
-                )
+        elif part.tag in _PLACES:
+            for place, inner in zip(_PLACES[part.tag], part.parts, strict=True):
+                yield from _leaves((inner,), where + place)
         else:
             yield from _leaves(part.parts, where)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 from symctrl.report import witnesses
 from symctrl.report.mathml import differ, math, pair
@@ -62,9 +63,23 @@ def _block(
         chips=tuple(chips),
         why=tuple(dict.fromkeys(filter(None, why))),
         reading_note=entry.reading if entry is not None else None,
-        readings=tuple(_reading(report, group, row, units, script) for row in group.rows),
+        readings=_readings(report, group, units, script),
         corrections=tuple(_correction(report, group, row) for row in group.corrections),
     )
+
+
+def _readings(
+    report: Report, group: Group, units: Mapping[str, str], script: Callable[[Row], Script]
+) -> tuple[Reading, ...]:
+    """All readings; the values of a witness are shown once where several have them."""
+    made: list[Reading] = []
+    for row in group.rows:
+        one = _reading(report, group, row, units, script)
+        earlier = [known.witness for known in made if known.witness is not None]
+        if one.witness is not None and any(w.values == one.witness.values for w in earlier):
+            one = replace(one, witness=replace(one.witness, values=(), hypotheses=(), again=True))
+        made.append(one)
+    return tuple(made)
 
 
 def _reading(
@@ -72,8 +87,9 @@ def _reading(
 ) -> Reading:
     other = next((c.latex for c in group.corrections if c.latex and row.latex), None)
     other = other or next((r.latex for r in group.rows if r.stands and r.latex), None)
-    formula = pair(row.latex, other)[0] if other and differ(row.latex, other) else math(row.latex, True)
     through = _through(report, row) if _THROUGH in row.reason else ()
+    compared = other is not None and not through and differ(row.latex, other)
+    formula = pair(row.latex, other or "")[0] if compared else math(row.latex, True)
     return Reading(
         name=row.id.partition("[")[2].rstrip("]") or None,
         chip=chip(row),
@@ -108,7 +124,9 @@ def _through(report: Report, row: Row) -> tuple[Link, ...]:
 def _correction(report: Report, group: Group, row: Row) -> Correction:
     printed = next((r.latex for r in group.rows if r.latex and r.verdict != "proved"), "")
     same = bool(printed) and not differ(printed, row.latex)
-    formula = pair(printed, row.latex)[1] if printed and not same else math(row.latex, True)
+    wrong = [r for r in group.rows if r.latex and r.verdict != "proved" and _THROUGH not in r.reason]
+    compared = bool(wrong) and differ(wrong[0].latex, row.latex)
+    formula = pair(wrong[0].latex, row.latex)[1] if compared else math(row.latex, True)
     return Correction(
         id=row.id,
         chip=standing_chip(row),

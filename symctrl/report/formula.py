@@ -78,7 +78,8 @@ def parse(latex: str) -> tuple[Element, ...]:
 
 class _Reader:
     def __init__(self, latex: str) -> None:
-        self.tokens = [m.group() for m in _TOKEN.finditer(latex)]
+        shown = "".join(sign if sign.isprintable() else " " for sign in latex)
+        self.tokens = [m.group() for m in _TOKEN.finditer(shown)]
         self.at = 0
 
     def until(self, ends: Sequence[str]) -> list[Element]:
@@ -219,6 +220,8 @@ def _accented(part: Element, sign: str) -> Element:
     """The accent over a letter, not over its subscript."""
     if part.tag in ("msub", "msubsup"):
         return Element(part.tag, (_accented(part.parts[0], sign), *part.parts[1:]))
+    if sign == "˙" and part.tag == "mover" and part.parts[1].text == sign:
+        part, sign = part.parts[0], "¨"
     return Element("mover", (part, Element("mo", text=sign)), "", ' accent="true"')
 
 

@@ -11,6 +11,7 @@ from symctrl.report.difference import marked
 from symctrl.report.formula import RELATIONS, SIGNS, Element, parse
 
 UNBROKEN = 26  # about as many signs as fit in a line on a phone
+WIDE = 38  # about as many as in half a page
 LARGEST = 5  # rows or columns of a matrix that are shown in full
 
 
@@ -62,7 +63,7 @@ def _columns(table: Element) -> list[tuple[Element, ...]]:
 
 
 def _elided(parts: Sequence[Element]) -> tuple[Element, ...]:
-    """Large matrices by their first and last rows and columns."""
+    """Large matrices by their first and last rows and columns, long lists by their ends."""
     return tuple(_elided_element(part) for part in parts)
 
 
@@ -73,6 +74,9 @@ def _elided_element(part: Element) -> Element:
     if part.tag == "mtable" and len(inside) > LARGEST:
         dots = Element("mtr", tuple(Element("mtd", (Element("mo", text="⋮"),)) for _ in inside[0].parts))
         inside = (*inside[:2], dots, inside[-1])
+    commas = [k for k, one in enumerate(inside) if one.is_operator and one.text == ","]
+    if part.tag == "mrow" and len(commas) >= LARGEST:
+        inside = (*inside[: commas[0] + 1], Element("mo", text="⋯"), *inside[commas[-1] :])
     return Element(part.tag, inside, part.text, part.attributes)
 
 
@@ -80,9 +84,29 @@ def _shown(parts: Sequence[Element], display: bool) -> Markup:
     if not parts:
         return Markup("")
     style = ' displaystyle="true"' if display else ""
-    pieces = _pieces(parts) if width(parts) > UNBROKEN else [tuple(parts)]
+    pieces = _pieces(_spread(parts)) if width(parts) > UNBROKEN else [tuple(parts)]
     # What is put together here are leaves that `_written` has escaped.
-    return Markup("<wbr>".join(f"<math{style}>{''.join(map(_written, piece))}</math>" for piece in pieces))
+    made = (f"<math{_size(piece)}{style}>{''.join(map(_written, piece))}</math>" for piece in pieces)
+    return Markup("<wbr>".join(made))
+
+
+def _spread(parts: Sequence[Element]) -> list[Element]:
+    """The parts with a long tinted one in pieces that are tinted each."""
+    made: list[Element] = []
+    for part in parts:
+        inner = part.parts[0].parts if part.attributes.startswith(" class=") and len(part.parts) == 1 else ()
+        if inner and part.parts[0].tag == "mrow" and width(inner) > UNBROKEN / 2:
+            tinted = (Element("mrow", piece) for piece in _pieces(inner))
+            made += [Element("mrow", (row,), "", part.attributes) for row in tinted]
+        else:
+            made.append(part)
+    return made
+
+
+def _size(piece: Sequence[Element]) -> str:
+    """A class for what is wider than a column, so that it is set smaller."""
+    wide = width(piece)
+    return "" if wide <= WIDE else ' class="w"' if wide <= 1.6 * WIDE else ' class="ww"'
 
 
 def _pieces(parts: Sequence[Element]) -> list[tuple[Element, ...]]:

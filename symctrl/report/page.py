@@ -130,6 +130,7 @@ class Branch:
     text: str
     leaves: tuple[Leaf, ...]
     more: str = ""  # what else it rests on, in few words
+    detail: str = ""  # what the line says
     cut: bool = False
     tainted: bool = False
     target: str | None = None
@@ -191,6 +192,7 @@ class WitnessBlock:
     outcome: tuple[str, ...]
     hypotheses: tuple[str, ...]
     script: Script
+    again: bool = False  # are the values those of an earlier reading?
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from symctrl.report.mathml import math
 
 _LETTER = rf"(?:[A-Za-z]|{'|'.join(sorted(GREEK, key=len, reverse=True))})"
 _GREEK = "|".join(sorted((name for name in GREEK if len(name) > 2 and name != "ell"), key=len, reverse=True))
-_NAME = re.compile(rf"(?<![\w/\\-])({_LETTER}(?:_\w+)+|[a-zA-Z]\d|{_GREEK}|Pi|Xi|mu|nu)(?![\w-])")
+_NAME = re.compile(rf"(?<![\w/\\])(?<!\w-)({_LETTER}(?:_\w+)+|[a-zA-Z]\d|{_GREEK}|Pi|Xi|mu|nu)(?![\w-])")
 
 
 def prose(text: str) -> Markup:

@@ -57,7 +57,12 @@ class _View:
         if row.verdict == "refuted":
             name = row.method.removeprefix("counterexample ")
             branch = Branch(
-                Chip("refuted", "refuted"), name, (), "contradicts a conclusion", True, target=_own_place(row)
+                Chip("refuted", "refuted"),
+                name,
+                (),
+                "contradicts a conclusion",
+                cut=True,
+                target=_own_place(row),
             )
             yield Limb("counterexample", (branch,))
 
@@ -75,7 +80,7 @@ class _View:
         met = len(below) - len(open_)
         number = step.id.rpartition("/")[2]
         leaves = tuple(Leaf(_plain(r), r.role or r.statement, r.verdict == "refuted") for r in open_)
-        text = f"{number} {step.rule}" if number != "0" else "0 what is assumed is kept"
+        text = f"{number} {step.rule}" if number != "0" else "0 assumptions are kept"
         more = f"{counted(met, 'obligation')} met" if met else ""
         if step.blocked_by:
             more = "a line above it is broken"
@@ -86,6 +91,7 @@ class _View:
             more,
             cut=step.verdict == "refuted",
             tainted=step.verdict == "undecided",
+            detail=step.statement.partition(": ")[2] if number != "0" else "",
         )
 
     def _used(self, row: Row, side: str) -> Iterator[Branch] | list[Branch]:
@@ -99,7 +105,7 @@ class _View:
             if below.kind != "conforms" or below.form == "corrected":
                 statements.append(self._statement(below))
             elif name in self.corrections and side == PRINTED:
-                text = f"{below.equation} {name}"
+                text = name
                 leaf = Leaf(Chip("proved", "corrected"), f"corrected by {self.corrections[name].id}")
                 faulty.append(
                     Branch(Chip("broken", "corrected"), text, (leaf,), tainted=True, target=anchor(name, "d"))
@@ -113,9 +119,7 @@ class _View:
         below = few([id_ for id_ in row.rests_on if "/" not in id_], 5)
         group = self.groups.get(row.corrects or base(row.id))
         target = place(group, row) if group is not None else None
-        return Branch(
-            standing_chip(row), f"{row.equation} {row.id}", (), f"on {below}" if below else "", target=target
-        )
+        return Branch(standing_chip(row), row.id, (), f"on {below}" if below else "", target=target)
 
 
 def _definitions(names: Sequence[str]) -> str:
