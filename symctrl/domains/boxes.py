@@ -2,12 +2,14 @@
 
 Rounding: every operation in floating point is rounded outward by one step (IEEE 754 operations are correctly
 rounded, so that the exact result lies between the neighbours of the computed one). Over exact fractions
-nothing is rounded. nan means undecided: the operation may be undefined somewhere in the box, and stays nan.
+nothing is rounded. nan means undecided: the operation may be undefined somewhere in the box. It stays nan in
+all that is made of it; exact fractions have no nan, and Unsupported is raised in its place.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
@@ -18,6 +20,11 @@ import numpy as np
 from symctrl.domains.domain import Domain, Unsupported
 
 Array: TypeAlias = Any  # an array of float64, or of Fraction
+
+
+def quiet() -> AbstractContextManager[None]:
+    """Inside, infinities and nan are values like others, and no reason for numpy to warn."""
+    return np.errstate(all="ignore")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,14 +63,12 @@ class Boxes(Domain[Box]):
         return self._out(a.low - b.high, a.high - b.low)
 
     def mul_(self, a: Box, b: Box) -> Box:
-        with np.errstate(invalid="ignore", over="ignore"):
-            ends = [self._product(x, y) for x in (a.low, a.high) for y in (b.low, b.high)]
+        ends = [self._product(x, y) for x in (a.low, a.high) for y in (b.low, b.high)]
         return self._out(reduce(np.minimum, ends), reduce(np.maximum, ends))
 
     def sq_(self, a: Box) -> Box:
         size = self.fabs_(a)
-        with np.errstate(over="ignore"):
-            made = self._out(size.low * size.low, size.high * size.high)
+        made = self._out(size.low * size.low, size.high * size.high)
         return Box(np.maximum(made.low, self._zero), made.high)
 
     def inv_(self, a: Box) -> Box:
@@ -73,9 +78,7 @@ class Boxes(Domain[Box]):
             if inside.any():
                 raise Unsupported("an exact box divides by what may be zero")
             return Box(1 / a.high, 1 / a.low)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            made = self._out(1.0 / a.high, 1.0 / a.low)
-        return _unless(inside, made)
+        return _unless(inside, self._out(1.0 / a.high, 1.0 / a.low))
 
     def fabs_(self, a: Box) -> Box:
         straddles = (a.low < 0) & (a.high > 0)
@@ -92,27 +95,39 @@ class Boxes(Domain[Box]):
         """nan where the box reaches below zero."""
         if self.exact:
             raise Unsupported("a root is not exact")
-        with np.errstate(invalid="ignore"):
-            made = self._out(np.sqrt(a.low), np.sqrt(a.high))
+        made = self._out(np.sqrt(a.low), np.sqrt(a.high))
         return _unless(a.low < 0, Box(np.maximum(made.low, self._zero), made.high))
 
+    def sign_(self, a: Box) -> Box:
+        """1, -1, or 0 at zero."""
+        signs = [np.where(x > 0, self._one, np.where(x < 0, -self._one, x * 0)) for x in (a.low, a.high)]
+        return Box(*signs)
+
     def pow_(self, a: Box, b: Box) -> Box:
-        """A constant whole exponent."""
-        if b.power is None or b.power.denominator != 1:
-            raise Unsupported("the boxes domain knows whole exponents only")
-        return self._power(a, int(b.power))
+        """A constant exponent that is whole, or half of a whole number."""
+        if b.power is None or b.power.denominator > 2:
+            raise Unsupported("the boxes domain knows whole exponents and halves of these only")
+        if b.power.denominator == 2:
+            a = self.sqrt_(a)
+        return self._power(a, b.power.numerator)
 
     def _power(self, a: Box, n: int) -> Box:
+        """0^0 is 1; a negative power is that of the inverse."""
         if n < 0:
-            return self.inv_(self._power(a, -n))
+            return self._power(self.inv_(a), -n)
         if n == 0:
-            return self.constant(Fraction(1))
+            one = self.constant(Fraction(1))
+            return one if self.exact else _unless(np.isnan(a.low), one)
         half = self._power(a, n // 2)
         return self.sq_(half) if n % 2 == 0 else self.mul_(a, self.sq_(half)) if n > 1 else a
 
     @property
     def _zero(self) -> Any:
         return Fraction(0) if self.exact else 0.0
+
+    @property
+    def _one(self) -> Any:
+        return Fraction(1) if self.exact else 1.0
 
     def _product(self, x: Array, y: Array) -> Array:
         """0 times an unbounded end is 0: the end itself is never taken."""
@@ -157,6 +172,3 @@ def _ends(box: Box) -> tuple[Array, Array]:
 
 def _unless(undefined: Array, box: Box) -> Box:
     return Box(np.where(undefined, np.nan, box.low), np.where(undefined, np.nan, box.high))
-
-
-Meaning = Callable[[str], Box]

@@ -9,13 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import reduce
 from typing import Any
 
 import numpy as np
 
 from symctrl.decide.definiteness import decide_matrix
-from symctrl.domains.boxes import Array, Box, Boxes
+from symctrl.domains.boxes import Array, Box, Boxes, quiet
 from symctrl.domains.domain import Unsupported
 
 HOLDS, OPEN, FAILS = 1, 0, -1
@@ -25,8 +24,20 @@ Rows = list[list[Box]]
 
 def definite_in(tree: Mapping[str, Any], strict: bool, outputs: Sequence[Box], domain: Boxes) -> Array:
     """HOLDS, FAILS or OPEN for each box. Raises Unsupported for a structure that is not read here."""
-    found = [_matrix_in(rows, strict, domain) for rows in leaves(tree, outputs)]
+    with quiet():
+        found = [_matrix_in(rows, strict, domain) for rows in leaves(tree, outputs)]
     return np.min(np.broadcast_arrays(*found), axis=0)
+
+
+def is_symmetric(tree: Mapping[str, Any], outputs: Sequence[Box]) -> bool:
+    """Do the enclosures of entries that mirror each other meet?"""
+    pairs = [
+        (row[c], rows[c][r])
+        for rows in leaves(tree, outputs)
+        for r, row in enumerate(rows)
+        for c in range(len(row))
+    ]
+    return all(((a.low <= b.high) & (b.low <= a.high) | np.isnan(a.low + b.low)).all() for a, b in pairs)
 
 
 def leaves(tree: Mapping[str, Any], outputs: Sequence[Any]) -> Iterator[list[list[Any]]]:
@@ -46,13 +57,15 @@ def smallest_eigenvalue(rows: Sequence[Sequence[tuple[Fraction, Fraction]]]) -> 
     """A lower bound of the smallest eigenvalue of every symmetric matrix within the entries' intervals.
 
     A = C + R with |R| <= W entry by entry: the smallest eigenvalue of A is at least that of C less the
-    largest row sum of W. That of C is bounded because C - s I is exactly semidefinite.
+    largest row sum of W. That of C is bounded because C - s I is exactly semidefinite. A short s is tried
+    first: the eigenvalue may be one.
     """
     middle = [[(low + high) / 2 for low, high in row] for row in rows]
     spread = max(sum(((high - low) / 2 for low, high in row), Fraction(0)) for row in rows)
     near = float(np.linalg.eigvalsh(np.array([[float(x) for x in row] for row in middle]))[0])
-    step = Fraction(abs(near) or 1.0).limit_denominator(1) / 2**40 + Fraction(1, 2**40)
-    bound = Fraction(round(near * 2**40), 2**40)
+    short = Fraction(near).limit_denominator(1000)
+    step = max(Fraction(abs(near)), Fraction(1)) / 2**40
+    bound = short if abs(short - Fraction(near)) <= step else Fraction(round(near * 2**40), 2**40)
     while not _exceeds(middle, bound):
         bound, step = bound - step, 2 * step
     return bound - spread
@@ -66,61 +79,82 @@ def _exceeds(rows: Sequence[Sequence[Fraction]], bound: Fraction) -> bool:
 def _matrix_in(rows: Rows, strict: bool, domain: Boxes) -> Array:
     if domain.exact and all((box.low == box.high).all() for row in rows for box in row):
         return _at_points(rows, strict)
-    holds = reduce(np.logical_and, (pivot.low > 0 for pivot in _pivots(rows, domain)))
-    return np.where(holds, HOLDS, np.where(_excluded(rows, strict), FAILS, OPEN))
+    holds = _pivots(rows, domain)
+    count = np.broadcast_shapes(*(box.low.shape for row in rows for box in row))
+    found = np.where(np.broadcast_to(holds, count), HOLDS, OPEN)
+    left = np.flatnonzero(found == OPEN)
+    if left.size:
+        low = _together([[_floats(box.low, -np.inf) for box in row] for row in rows])
+        high = _together([[_floats(box.high, np.inf) for box in row] for row in rows])
+        found[left] = np.where(
+            _excluded(np.array(low)[..., left], np.array(high)[..., left], strict), FAILS, OPEN
+        )
+    return found
 
 
 def _at_points(rows: Rows, strict: bool) -> Array:
-    count = np.broadcast_shapes(*(box.low.shape for row in rows for box in row))[0]
-    each = [[np.broadcast_to(box.low, count) for box in row] for row in rows]
+    each = _together([[box.low for box in row] for row in rows])
     found = []
-    for k in range(count):
+    for k in range(each[0][0].size):
         answer = decide_matrix([[Fraction(entry[k]) for entry in row] for row in each]).definiteness
         good = answer == "positive definite" or (answer == "positive semidefinite" and not strict)
         found.append(HOLDS if good else FAILS)
     return np.array(found)
 
 
-def _pivots(rows: Rows, domain: Boxes) -> Iterator[Box]:
-    """The pivots of the elimination, up to one of which nothing is known where the ends are fractions."""
-    left = [list(row) for row in rows]
+def _together(rows: Sequence[Sequence[Array]]) -> list[list[Array]]:
+    """The entries as arrays of one length; those below the diagonal are those above it."""
+    count = np.broadcast_shapes(*(entry.shape for row in rows for entry in row))
+    upper = {(r, c): np.broadcast_to(row[c], count) for r, row in enumerate(rows) for c in range(r, len(row))}
+    return [[upper[min(r, c), max(r, c)] for c in range(len(rows))] for r in range(len(rows))]
+
+
+def _pivots(rows: Rows, domain: Boxes) -> Array:
+    """Are all pivots of the elimination positive in the whole box? Only entries on and above the diagonal are
+    looked at.
+    """
+    left = [row[r:] for r, row in enumerate(rows)]
+    holds = np.array([True])
     while left:
-        pivot = left[0][0]
-        yield pivot
-        if len(left) == 1 or (domain.exact and not (pivot.low > 0).all()):
-            return
+        top = left.pop(0)
+        holds = holds & (top[0].low > 0)
+        if not left or not holds.any():
+            break
+        pivot = Box(np.where(holds, top[0].low, 1), np.where(holds, top[0].high, 1))  # of no matter elsewhere
         inverse = domain.inv_(pivot)
-        left = [_eliminated(left[0], row, r, inverse, domain) for r, row in enumerate(left) if r]
+        left = [_eliminated(top, k, row, inverse, domain) for k, row in enumerate(left, 1)]
+    return holds
 
 
-def _eliminated(top: list[Box], row: list[Box], r: int, inverse: Box, domain: Boxes) -> list[Box]:
-    """A row below the top one without its first entry; row[0] and top[r] are the same by symmetry."""
+def _eliminated(top: list[Box], k: int, row: list[Box], inverse: Box, domain: Boxes) -> list[Box]:
+    """Row k below the top one, from its diagonal on, with the top one's first entry eliminated."""
     made = []
-    for c in range(1, len(row)):
-        both = domain.sq_(row[0]) if c == r else domain.mul_(row[0], top[c])
-        made.append(domain.sub_(row[c], domain.mul_(both, inverse)))
+    for c, entry in enumerate(row, k):
+        both = domain.sq_(top[k]) if c == k else domain.mul_(top[k], top[c])
+        made.append(domain.sub_(entry, domain.mul_(both, inverse)))
     return made
 
 
-def _excluded(rows: Rows, strict: bool) -> Array:
-    """Is x'Ax below zero (or zero, where the matrix shall be definite) in the whole box?"""
-    floats, n = Boxes(), len(rows)
-    shape = np.broadcast_shapes(*(box.low.shape for row in rows for box in row))
-    low = np.array([[np.broadcast_to(_as_floats(box.low), shape) for box in row] for row in rows])
-    high = np.array([[np.broadcast_to(_as_floats(box.high), shape) for box in row] for row in rows])
+def _excluded(low: Array, high: Array, strict: bool) -> Array:
+    """Is x'Ax below zero (or zero, where the matrix shall be definite) in the whole box?
+
+    low, high: of shape (n, n, boxes).
+    """
+    floats, n = Boxes(), len(low)
     middle = np.moveaxis((low + high) / 2, 2, 0)
     known = np.isfinite(middle).all(axis=(1, 2))
     middle[~known] = np.eye(n)
     x = np.round(np.linalg.eigh(middle)[1][:, :, 0] * DIGITS)
     total = floats.constant(Fraction(0))
     for r in range(n):
-        for c in range(n):
-            weight = Box(x[:, r] * x[:, c], x[:, r] * x[:, c])  # whole numbers below 2^24: exact
-            entry = Box(np.nextafter(low[r, c], -np.inf), np.nextafter(high[r, c], np.inf))
-            total = floats.add_(total, floats.mul_(weight, entry))
+        for c in range(r, n):
+            twice = x[:, r] * x[:, c] * (1 if r == c else 2)  # whole numbers below 2^26: exact
+            entry = floats.mul_(Box(twice, twice), Box(low[r, c], high[r, c]))
+            total = floats.add_(total, entry)
     below = total.high <= 0 if strict else total.high < 0
     return below & known & (np.abs(x).max(axis=1) > 0)
 
 
-def _as_floats(ends: Array) -> Array:
-    return ends.astype(float)
+def _floats(ends: Array, towards: float) -> Array:
+    """Fractions rounded to floating-point numbers on that side."""
+    return np.nextafter(ends.astype(float), towards) if ends.dtype == object else ends

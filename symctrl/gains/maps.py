@@ -1,6 +1,7 @@
 """The map of one or two gains: large boxes are decided first, and only what the boundary crosses is cut.
 
-Edges are exact rationals; in floating point a box is rounded outward, so that it contains its cells.
+Cells are closed. Their edges are exact rationals; in floating point a box is rounded outward, so that it
+contains its cells, and a cell that the boundary only touches is decided by fractions.
 """
 
 from __future__ import annotations
@@ -9,19 +10,26 @@ import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from symctrl.domains.boxes import Array, Box, Boxes, rounded
+from symctrl.domains.boxes import Array, Box, Boxes, exact_array, rounded
+from symctrl.domains.domain import Unsupported
 from symctrl.files import InputError
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
-from symctrl.gains.requirement import Cases, Requirement, state
+from symctrl.gains.requirement import Cases, Requirement, known, state
 
 LETTERS = {HOLDS: "f", FAILS: "i", OPEN: "u"}
 LARGEST_BLOCK = 512  # cells on a side
 AT_ONCE = 1 << 17  # boxes
+MOST_OPEN = 1 << 22  # cells of the blocks that are cut together
+EDGE = 2.0**-20  # of its width, by which a cell is shrunk to see whether rounding alone keeps it open
+FEW = 32
 BYTES_PER_CELL = 6  # in the array, in the rows of text, and in what is written of them
+
+Span = tuple[Array, Array]  # the first cells of blocks, and those after the last
 
 
 @dataclass(frozen=True)
@@ -80,7 +88,7 @@ def _number(text: str, part: str) -> Fraction:
 def refuse_too_large(axes: Sequence[Axis]) -> None:
     """Raises InputError, with the estimate, where the cells do not go into half of the free memory."""
     cells = int(np.prod([axis.count for axis in axes], dtype=object))
-    free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    free = free_memory()
     if cells * BYTES_PER_CELL > free // 2:
         raise InputError(
             f"--sweep: {cells:.2e} cells take about {cells * BYTES_PER_CELL / 1e9:.1f} GB, more than half of "
@@ -88,54 +96,131 @@ def refuse_too_large(axes: Sequence[Axis]) -> None:
         )
 
 
+def free_memory() -> int:
+    """Bytes that may be had: what the system says is available, or else all that is not in use."""
+    try:
+        text = Path("/proc/meminfo").read_text(encoding="ascii")
+        return 1024 * int(text.partition("MemAvailable:")[2].split()[0])
+    except (OSError, IndexError, ValueError):
+        return os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+
+
 def swept(
     requirements: Sequence[Requirement], axes: Sequence[Axis], gains: Mapping[str, Fraction], cases: Cases
 ) -> Map:
-    """Each cell as a whole: HOLDS where all requirements do, FAILS where one does, else OPEN.
-
-    Raises Unsupported for an operation that boxes do not know.
+    """Each closed cell as a whole: HOLDS where all requirements do at every point of it, FAILS where one does
+    at none, else OPEN.
     """
-    domain = Boxes()
-    fixed = {name: domain.between(value, value) for name, value in gains.items()}
-    columns, rows = axes[0].count, axes[1].count if len(axes) > 1 else 1
-    states = np.zeros((rows, columns), np.int8)
-    edges = [_edges(axis) for axis in axes]
-    side = min(LARGEST_BLOCK, 1 << (max(rows, columns) - 1).bit_length())
-    grid = np.meshgrid(np.arange(0, columns, side), np.arange(0, rows, side))
+    cases = {name: case for name, case in cases.items() if name not in {axis.name for axis in axes}}
+    sweep = _Sweep(requirements, axes, gains, cases)
+    for left, low in _groups(sweep.shape, sweep.side):
+        sweep.cut(left, low)
+    return Map(tuple(axes), sweep.states)
+
+
+class _Sweep:
+    """The cells of a map as they are decided: in blocks of cells, from `side` on a side down to one."""
+
+    def __init__(
+        self,
+        requirements: Sequence[Requirement],
+        axes: Sequence[Axis],
+        gains: Mapping[str, Fraction],
+        cases: Cases,
+    ) -> None:
+        self.requirements, self.axes, self.cases = requirements, axes, cases
+        self.gains = {name: value for name, value in gains.items() if name not in {a.name for a in axes}}
+        self.shape = axes[1].count if len(axes) > 1 else 1, axes[0].count
+        self.side = min(LARGEST_BLOCK, 1 << (max(self.shape) - 1).bit_length())
+        self.states = np.zeros(self.shape, np.int8)
+        self.exact = [exact_array([axis.edge(k) for k in range(axis.count + 1)]) for axis in axes]
+        self.down = [np.array([rounded(x, -np.inf) for x in edges]) for edges in self.exact]
+        self.up = [np.array([rounded(x, np.inf) for x in edges]) for edges in self.exact]
+
+    def cut(self, left: Array, low: Array) -> None:
+        """Decide blocks by the first cell of each, and cut those that are open into four."""
+        side = self.side
+        while left.size:
+            right, high = np.minimum(left + side, self.shape[1]), np.minimum(low + side, self.shape[0])
+            spans = [(left, right), (low, high)][: len(self.axes)]
+            found = np.concatenate([self._decided(part) for part in _parts(spans)])
+            if side == 1:
+                self.states[low, left] = found
+                self._settle_touching(left[found == OPEN], low[found == OPEN])
+                return
+            sure = found != OPEN
+            self._fill(found[sure], left[sure], low[sure], side)
+            side //= 2
+            left, low = self._quarters(left[~sure], low[~sure], side)
+
+    def _decided(self, spans: Sequence[Span], within: float = 0.0) -> Array:
+        """The states of boxes in floating point; within: the part of its width by which a box is shrunk."""
+        domain = Boxes()
+        boxes = {name: domain.between(value, value) for name, value in self.gains.items()}
+        for k, (first, last) in enumerate(spans):
+            low, high = self.down[k][first], self.up[k][last]
+            less = (high - low) * within
+            boxes[self.axes[k].name] = Box(low + less, high - less)
+        return together(self.requirements, boxes, self.cases, domain, spans[0][0].size)
+
+    def _settle_touching(self, left: Array, low: Array) -> None:
+        """Decide by fractions the cells that rounding alone may have left open: those whose inside is
+        decided.
+        """
+        for (first, bottom), *_ in _parts([(left, low)]) if left.size else ():
+            spans = [(first, first + 1), (bottom, bottom + 1)][: len(self.axes)]
+            near = self._decided(spans, within=EDGE) != OPEN
+            if near.any():
+                found = self._exactly([(a[near], b[near]) for a, b in spans])
+                self.states[bottom[near], first[near]] = found
+
+    def _exactly(self, spans: Sequence[Span]) -> Array:
+        domain, count = Boxes(exact=True), spans[0][0].size
+        boxes = {name: domain.between(value, value) for name, value in self.gains.items()}
+        for k, (first, last) in enumerate(spans):
+            boxes[self.axes[k].name] = Box(self.exact[k][first], self.exact[k][last])
+        try:
+            found = np.full(count, HOLDS, np.int8)
+            for one in self.requirements:
+                found = np.minimum(found, state(one, boxes, self.cases, domain).astype(np.int8))
+            return found
+        except Unsupported:  # of one box, perhaps
+            if count <= FEW:
+                return np.full(count, OPEN, np.int8)
+        halves = slice(None, count // 2), slice(count // 2, None)
+        return np.concatenate([self._exactly([(a[half], b[half]) for a, b in spans]) for half in halves])
+
+    def _fill(self, found: Array, left: Array, low: Array, side: int) -> None:
+        if side >= FEW:
+            for state_, x, y in zip(found, left, low, strict=True):
+                self.states[y : y + side, x : x + side] = state_
+            return
+        for dy in range(min(side, self.shape[0])):
+            for dx in range(side):
+                x, y = left + dx, low + dy
+                inside = (x < self.shape[1]) & (y < self.shape[0])
+                self.states[y[inside], x[inside]] = found[inside]
+
+    def _quarters(self, left: Array, low: Array, side: int) -> tuple[Array, Array]:
+        left = np.concatenate([left, left + side, left, left + side])
+        low = np.concatenate([low, low, low + side, low + side])
+        inside = (left < self.shape[1]) & (low < self.shape[0])
+        return left[inside], low[inside]
+
+
+def _groups(shape: tuple[int, int], side: int) -> Iterator[tuple[Array, Array]]:
+    """The first cells of the blocks, a few blocks at a time."""
+    grid = np.meshgrid(np.arange(0, shape[1], side), np.arange(0, shape[0], side))
     left, low = grid[0].ravel(), grid[1].ravel()
-    while left.size:
-        right, high = np.minimum(left + side, columns), np.minimum(low + side, rows)
-        spans = [(left, right), (low, high)][: len(axes)]
-        found = np.concatenate(list(_in_parts(requirements, axes, edges, spans, fixed, cases, domain)))
-        _fill(states, found, left, right, low, high)
-        if side == 1:
-            break
-        side //= 2
-        left, low = _quarters(left[found == OPEN], low[found == OPEN], side, columns, rows)
-    return Map(tuple(axes), states)
+    step = max(1, MOST_OPEN // (side * min(side, shape[0])))
+    for start in range(0, left.size, step):
+        yield left[start : start + step], low[start : start + step]
 
 
-def _edges(axis: Axis) -> tuple[Array, Array]:
-    """The edges rounded down and up."""
-    exact = [axis.edge(k) for k in range(axis.count + 1)]
-    return np.array([rounded(x, -np.inf) for x in exact]), np.array([rounded(x, np.inf) for x in exact])
-
-
-def _in_parts(
-    requirements: Sequence[Requirement],
-    axes: Sequence[Axis],
-    edges: Sequence[tuple[Array, Array]],
-    spans: Sequence[tuple[Array, Array]],
-    fixed: Mapping[str, Box],
-    cases: Cases,
-    domain: Boxes,
-) -> Iterator[Array]:
+def _parts(spans: Sequence[Span]) -> Iterator[list[Span]]:
     for start in range(0, spans[0][0].size, AT_ONCE):
         part = slice(start, start + AT_ONCE)
-        boxes = dict(fixed)
-        for axis, (down, up), (first, last) in zip(axes, edges, spans, strict=True):
-            boxes[axis.name] = Box(down[first[part]], up[last[part]])
-        yield together(requirements, boxes, cases, domain, spans[0][0][part].size)
+        yield [(first[part], last[part]) for first, last in spans]
 
 
 def together(
@@ -148,20 +233,5 @@ def together(
     """The state of all requirements together in each of `count` boxes."""
     found = np.full(count, HOLDS, np.int8)
     for one in requirements:
-        found = np.minimum(found, state(one, boxes, cases, domain).astype(np.int8))
+        found = np.minimum(found, known(one, boxes, cases, domain).astype(np.int8))
     return found
-
-
-def _fill(states: Array, found: Array, left: Array, right: Array, low: Array, high: Array) -> None:
-    if (right - left == 1).all() and (high - low == 1).all():
-        states[low, left] = found
-        return
-    for k in np.flatnonzero(found != OPEN):
-        states[low[k] : high[k], left[k] : right[k]] = found[k]
-
-
-def _quarters(left: Array, low: Array, side: int, columns: int, rows: int) -> tuple[Array, Array]:
-    left = np.concatenate([left, left + side, left, left + side])
-    low = np.concatenate([low, low, low + side, low + side])
-    inside = (left < columns) & (low < rows)
-    return left[inside], low[inside]

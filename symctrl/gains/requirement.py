@@ -17,11 +17,13 @@ from typing import Any
 import numpy as np
 
 from symctrl.bounds import Statement
-from symctrl.domains.boxes import Array, Box, Boxes, rounded
-from symctrl.domains.tangent import Pair
+from symctrl.domains.boxes import Array, Box, Boxes, quiet, rounded
+from symctrl.domains.domain import Unsupported
+from symctrl.domains.tangent import NotDifferentiable, Pair
 from symctrl.evaluate import Environment
 from symctrl.gains.definite import FAILS, HOLDS, OPEN, definite_in
 from symctrl.problem import Problem, split
+from symctrl.reach import Reach
 
 Interval = tuple[Fraction, Fraction | None]  # None: without an upper end
 DEGREE = "neighbours of i"  # the case that sums over the neighbours of a node read
@@ -54,22 +56,37 @@ class Requirement:
 
 
 def state(requirement: Requirement, gains: Gains, cases: Cases, domain: Boxes) -> Array:
-    """HOLDS, FAILS or OPEN for each box. Raises Unsupported for an operation that boxes do not know."""
+    """HOLDS, FAILS or OPEN for each box: the closed box, edges and all. Raises Unsupported for an operation
+    that boxes do not know, and in exact arithmetic for one that may be undefined.
+    """
     read = [name for name in requirement.names if name in cases]
     hull = {name: domain.between(*cases[name].hull) for name in read}
     found = _decided(requirement, {**gains, **hull}, domain)
-    fails = found == FAILS if not read else np.zeros(found.shape, bool)
-    for ranges in product(*(cases[name].ranges for name in read)) if read else ():
-        fails = fails | (
-            _in_ranges(requirement, gains, dict(zip(read, ranges, strict=True)), domain) == FAILS
-        )
+    if not read:
+        return found
+    fails = np.zeros(found.shape, bool)
+    for ranges in choices(requirement, cases):
+        fails = fails | (in_ranges(requirement, gains, ranges, domain) == FAILS)
     return np.where(found == HOLDS, HOLDS, np.where(fails, FAILS, OPEN))
 
 
-def _in_ranges(
-    requirement: Requirement, gains: Gains, ranges: Mapping[str, Interval], domain: Boxes
-) -> Array:
-    """A range without an upper end is one of floating-point numbers, which have infinity."""
+def known(requirement: Requirement, gains: Gains, cases: Cases, domain: Boxes) -> Array:
+    """As `state`; OPEN in all boxes where an operation is not known."""
+    try:
+        return state(requirement, gains, cases, domain)
+    except Unsupported:
+        return np.array([OPEN])
+
+
+def choices(requirement: Requirement, cases: Cases) -> Iterator[Mapping[str, Interval]]:
+    """A range for each case that is read: in each combination the cases take values."""
+    read = [name for name in requirement.names if name in cases]
+    for ranges in product(*(cases[name].ranges for name in read)):
+        yield dict(zip(read, ranges, strict=True))
+
+
+def in_ranges(requirement: Requirement, gains: Gains, ranges: Mapping[str, Interval], domain: Boxes) -> Array:
+    """The state with each case anywhere in a range. One without an upper end has floating-point ends."""
     if domain.exact and any(high is None for _, high in ranges.values()):
         gains, domain = _as_floats(gains), Boxes()
     chosen = {name: _between(domain, *one) for name, one in ranges.items()}
@@ -88,8 +105,7 @@ def _decided(requirement: Requirement, values: Gains, domain: Boxes) -> Array:
         assert tree is not None
         return definite_in(tree, strict, outputs(requirement, values, domain), domain)
     found = [_sign(requirement.kind, box) for box in tight(requirement, values, domain)]
-    shape = np.broadcast_shapes(*(values[name].low.shape for name in requirement.names), (1,))
-    return np.broadcast_to(np.min(np.broadcast_arrays(*found), axis=0), shape)
+    return np.asarray(np.min(np.broadcast_arrays(*found), axis=0))
 
 
 def _sign(kind: str, box: Box) -> Array:
@@ -111,7 +127,9 @@ def tight(requirement: Requirement, values: Gains, domain: Boxes) -> list[Box]:
     wide = [name for name in requirement.names if (values[name].low != values[name].high).any()]
     if not wide:
         return direct
-    slopes = {name: _slopes(requirement, values, name) for name in wide}
+    slopes = {name: found for name in wide if (found := _slopes(requirement, values, name))}
+    if not slopes:
+        return direct
     return [_at_ends(requirement, values, domain, k, slopes, box) for k, box in enumerate(direct)]
 
 
@@ -138,9 +156,18 @@ def _at_ends(
 
 
 def _slopes(requirement: Requirement, values: Gains, name: str) -> list[Box | None]:
-    """The derivative of each value by a symbol, in floating point; None where it is zero."""
+    """The derivative of each value by a symbol, in floating point; None where it is zero. None of all where
+    one is not known.
+
+    Where a value has a kink, what is enclosed is its generalized gradient, for which the mean value theorem
+    holds too (Lebourg).
+    """
     made = _Along(requirement.problem, _as_floats(values), name)
-    found = made.outputs(requirement.problem.claim.listing, {"i": "i"}, 1)
+    try:
+        with quiet():
+            found = made.outputs(requirement.problem.claim.listing, {"i": "i"}, 1)
+    except (Unsupported, NotDifferentiable):
+        return []
     return [pair.derivative for pair in found]
 
 
@@ -156,7 +183,8 @@ def _floats(ends: Array, towards: float) -> Array:
 def outputs(requirement: Requirement, values: Gains, domain: Boxes) -> list[Box]:
     """The values that the claim lists."""
     made = Environment(requirement.problem, domain, values.__getitem__, _Degrees(values))
-    return made.outputs(requirement.problem.claim.listing, {"i": "i"})
+    with quiet():
+        return made.outputs(requirement.problem.claim.listing, {"i": "i"})
 
 
 class _Degrees:
@@ -189,7 +217,9 @@ class _Along(Environment):
 
 
 def read_names(problem: Problem) -> Iterator[str]:
-    """The scalars that a problem reads, and the degree where it sums over neighbours."""
-    yield from problem.scalars
-    if any(meaning.is_ == "sum" for meaning in problem.names.values()):
+    """The scalars that a problem's claim reads, and the degree where it sums over neighbours."""
+    reach = Reach(problem)
+    reach.listing(problem.claim.listing)
+    yield from (name for name in problem.scalars if name in reach.read)
+    if any(m.is_ == "sum" for name, m in problem.names.items() if name in reach.read):
         yield DEGREE
