@@ -14,6 +14,7 @@ from symctrl.report.words import counted
 from symctrl.rows import Report, Row
 from symctrl.study import Study
 
+_BETWEEN = r",\; "
 _SCOPE = {
     "sampling": "the proofs are in continuous time",
     "delay": "signals and inputs act at once",
@@ -68,13 +69,13 @@ def assumptions(report: Report, study: Study) -> tuple[Assumption, ...]:
 
 
 def _assumed(report: Report, study: Study) -> Iterator[Assumption]:
-    told: dict[str, None] = {}
+    """The study's assumptions, those about the same and used by the same claims together."""
+    told: dict[tuple[str, str], dict[str, str]] = {}
     for one in study.assumed:
         text = one.claim.text()
-        if text in told:
-            continue
-        told[text] = None
-        yield Assumption("assumed", math(one.claim.latex()), _about(one.about), _used(report, text))
+        told.setdefault((_about(one.about), _used(report, text)), {})[text] = one.claim.latex()
+    for (about, used), formulas in told.items():
+        yield Assumption("assumed", math(_BETWEEN.join(formulas.values())), f"({about})", used)
 
 
 def _suppositions(report: Report, study: Study) -> Iterator[Assumption]:
@@ -112,11 +113,13 @@ def _chosen(study: Study) -> Iterator[Assumption]:
 
 def _open(study: Study) -> Iterator[Assumption]:
     """Parameters without a value: verdicts hold for all values that meet the assumptions."""
-    for name, symbol in study.symbols.items():
-        if symbol.kind == "parameter" and not symbol.values:
-            yield Assumption(
-                "no value", math(letter(name, symbol)), "", "every value that meets the assumptions"
-            )
+    names = [
+        letter(name, symbol)
+        for name, symbol in study.symbols.items()
+        if symbol.kind == "parameter" and not symbol.values
+    ]
+    if names:
+        yield Assumption("no value", math(_BETWEEN.join(names)), "", "every value that meets the assumptions")
 
 
 def _readings(report: Report, study: Study) -> Iterator[Assumption]:

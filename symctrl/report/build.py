@@ -15,6 +15,7 @@ from symctrl.report.names import (
     groups,
 )
 from symctrl.report.page import CertificateLine, Check, Footer, Gains, Page
+from symctrl.report.witnesses import Symbols
 from symctrl.rows import Report
 from symctrl.runs import file_name
 from symctrl.study import Study
@@ -24,6 +25,7 @@ def page(report: Report, study: Study, asked: str, title: str, gains: Gains | No
     """The page of a report. asked: the study's name or path, as the user gave it."""
     grouped = groups(report.rows)
     units = studyblock.units_of(study, report)
+    symbols = Symbols(units, studyblock.latex_of(study))
     return Page(
         header=claims.header(report, title, grouped, len(study.numbers)),
         notes=claims.notes(grouped),
@@ -31,7 +33,7 @@ def page(report: Report, study: Study, asked: str, title: str, gains: Gains | No
         study=studyblock.block(study, grouped, units),
         proofs=trees.pairs(report, grouped),
         failures=failures.blocks(
-            report, study, grouped, units, lambda row: scripts.script(report.study, row)
+            report, study, grouped, symbols, lambda row: scripts.script(report.study, row)
         ),
         evidence=beside.evidence(grouped),
         assumptions=beside.assumptions(report, study),

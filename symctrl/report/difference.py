@@ -10,7 +10,7 @@ from difflib import SequenceMatcher
 
 from symctrl.report.formula import BRACKETS, Element, row
 
-MARKED_AT_MOST = 0.7  # of the signs; where more differ, the two are simply different
+MARKED_AT_MOST = 0.5  # of the signs; where more differ, the two are simply different
 _PLACES = {  # of the parts of an element that has a fixed number of them
     "msub": ("", "_"),
     "msup": ("", "^"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from symctrl.report import witnesses
@@ -27,6 +27,7 @@ from symctrl.report.page import (
     Script,
     TwinsBlock,
 )
+from symctrl.report.witnesses import Symbols
 from symctrl.rows import Report, Row
 from symctrl.study import Study
 
@@ -37,14 +38,14 @@ def blocks(
     report: Report,
     study: Study,
     grouped: Sequence[Group],
-    units: Mapping[str, str],
+    symbols: Symbols,
     script: Callable[[Row], Script],
 ) -> tuple[Failure, ...]:
-    return tuple(_block(report, study, g, units, script) for g in grouped if g.fails)
+    return tuple(_block(report, study, g, symbols, script) for g in grouped if g.fails)
 
 
 def _block(
-    report: Report, study: Study, group: Group, units: Mapping[str, str], script: Callable[[Row], Script]
+    report: Report, study: Study, group: Group, symbols: Symbols, script: Callable[[Row], Script]
 ) -> Failure:
     failing = [row for row in group.rows if row.verdict != "proved" or not row.stands]
     first = failing[0]
@@ -63,18 +64,18 @@ def _block(
         chips=tuple(chips),
         why=tuple(dict.fromkeys(filter(None, why))),
         reading_note=entry.reading if entry is not None else None,
-        readings=_readings(report, group, units, script),
+        readings=_readings(report, group, symbols, script),
         corrections=tuple(_correction(report, group, row) for row in group.corrections),
     )
 
 
 def _readings(
-    report: Report, group: Group, units: Mapping[str, str], script: Callable[[Row], Script]
+    report: Report, group: Group, symbols: Symbols, script: Callable[[Row], Script]
 ) -> tuple[Reading, ...]:
     """All readings; the values of a witness are shown once where several have them."""
     made: list[Reading] = []
     for row in group.rows:
-        one = _reading(report, group, row, units, script)
+        one = _reading(report, group, row, symbols, script)
         earlier = [known.witness for known in made if known.witness is not None]
         if one.witness is not None and any(w.values == one.witness.values for w in earlier):
             one = replace(one, witness=replace(one.witness, values=(), hypotheses=(), again=True))
@@ -83,7 +84,7 @@ def _readings(
 
 
 def _reading(
-    report: Report, group: Group, row: Row, units: Mapping[str, str], script: Callable[[Row], Script]
+    report: Report, group: Group, row: Row, symbols: Symbols, script: Callable[[Row], Script]
 ) -> Reading:
     other = next((c.latex for c in group.corrections if c.latex and row.latex), None)
     other = other or next((r.latex for r in group.rows if r.stands and r.latex), None)
@@ -96,7 +97,7 @@ def _reading(
         formula=formula,
         reason=_reason(row),
         through=through,
-        witness=witnesses.block(row, units, script(row)),
+        witness=witnesses.block(row, symbols, script(row)),
         certificate=certificate(report.study, row),
     )
 

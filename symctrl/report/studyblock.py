@@ -66,6 +66,11 @@ def units_of(study: Study, report: Report) -> dict[str, str]:
     return {name: readable(unit) for name, unit in (found | declared).items()}
 
 
+def latex_of(study: Study) -> dict[str, str]:
+    """The LaTeX of the symbols to which their author has given one."""
+    return {_bare(name): str(s.expr.args[1]) for name, s in study.symbols.items() if s.expr.args[1]}
+
+
 def _bare(name: str) -> str:
     return name.partition("[")[0].partition(".")[0]
 

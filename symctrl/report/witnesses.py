@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
+
+from markupsafe import Markup
 
 from symctrl.latex import name_latex
 from symctrl.report.mathml import math
@@ -16,16 +19,31 @@ from symctrl.rows import Row
 LONGEST = 9  # entries of a vector that are all shown
 _NAME = re.compile(r"([^\[\].]+)(?:\.([^\[\]]+))?(?:\[([\d,]+)\])?")
 _SIDES = re.compile(r"left is (about )?(\S+), right (?:is )?(about )?([^\s:;]+)")
+_VALUES = re.compile(r"^at (?:.* on the graph with the edges [\w-]+(?:, [\w-]+)*|.*?, \.\.) ")
 _VALUE = re.compile(r"the value is (\S+) (<=?) 0")
 
 
-def block(row: Row, units: Mapping[str, str], script: Script) -> WitnessBlock | None:
+@dataclass(frozen=True)
+class Symbols:
+    """How the study's symbols are shown, by the name before a node: their units, and LaTeX of their own."""
+
+    units: Mapping[str, str]
+    latex: Mapping[str, str]
+
+    def name(self, symbol: str, node: str) -> Markup:
+        own = self.latex.get(symbol)
+        if own is None:
+            return math(name_latex(f"{symbol}.{node}" if node else symbol))
+        return math(f"{{{own}}}_{{{node}}}" if node else own)
+
+
+def block(row: Row, symbols: Symbols, script: Script) -> WitnessBlock | None:
     """The witness of a row that has one."""
     if row.witness is None:
         return None
     values = {k: v for k, v in row.witness.items() if k != "graph" and not isinstance(v, list | tuple)}
     vectors = {k: v for k, v in row.witness.items() if k != "graph" and isinstance(v, list | tuple)}
-    told, zeros = _table(values, units)
+    told, zeros = _table(values, symbols)
     told += [Value(math(name_latex(name)), _sparse(entries), "") for name, entries in vectors.items()]
     return WitnessBlock(
         values=tuple(told),
@@ -51,7 +69,7 @@ def outcome(row: Row) -> tuple[str, ...]:
     value = _VALUE.search(row.reason)
     if value:
         return (f"value: {_number(value[1])}, which is {value[2].replace('<=', '≤')} 0",)
-    return (numbers(reason.partition("; it fails with")[0]),)
+    return (numbers(_VALUES.sub("", reason.partition("; it fails with")[0])),)
 
 
 def _number(text: str) -> str:
@@ -62,7 +80,7 @@ def _number(text: str) -> str:
     return " ".join(filter(None, [numbers(text), decimal(value) if "/" in text else ""]))
 
 
-def _table(values: Mapping[str, Any], units: Mapping[str, str]) -> tuple[list[Value], list[str]]:
+def _table(values: Mapping[str, Any], symbols: Symbols) -> tuple[list[Value], list[str]]:
     """Each symbol with its entries in order; the names of those that are zero throughout."""
     entries: dict[tuple[str, str], dict[tuple[int, ...], Any]] = {}
     for name, value in values.items():
@@ -74,11 +92,10 @@ def _table(values: Mapping[str, Any], units: Mapping[str, str]) -> tuple[list[Va
         entries.setdefault((match[1], match[2] or ""), {})[index] = value
     told, zeros = [], []
     for (symbol, node), parts in sorted(entries.items(), key=lambda item: (item[0][0], item[0][1])):
-        name = f"{symbol}.{node}" if node else symbol
         if all(value == "0" for value in parts.values()):
             zeros.append(f"{symbol} of {node}" if node else symbol)
         else:
-            told.append(Value(math(name_latex(name)), _entries(parts), units.get(symbol, "")))
+            told.append(Value(symbols.name(symbol, node), _entries(parts), symbols.units.get(symbol, "")))
     return told, zeros
 
 
