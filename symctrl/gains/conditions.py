@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from symctrl.bounds import Bound, Statement
 from symctrl.collect import Collector
 from symctrl.context import within
+from symctrl.decide.claims import parts
+from symctrl.decide.place import is_fleet
+from symctrl.domains.boxes import Boxes
+from symctrl.domains.domain import Unsupported
 from symctrl.entries import component_names
 from symctrl.fleet import EIGENVALUE
-from symctrl.gains.requirement import DEGREE, Requirement, read_names
-from symctrl.problem import Problem
+from symctrl.gains.definite import is_symmetric
+from symctrl.gains.requirement import DEGREE, Requirement, outputs, reached, read_names
+from symctrl.problem import PROVED, Problem
 from symctrl.rules.loop import Loop
 from symctrl.statements import Definite, Equal, LaplacianBound, Nonzero, nonnegative
 from symctrl.theorem import Theorem
@@ -43,13 +50,15 @@ class Condition:
 @dataclass(frozen=True)
 class Hypotheses:
     """What a theorem assumes: conditions on gains; bounds: symbols that are no less than any eigenvalue of
-    the Laplacian; besides: the text of all else, and what it is about; all of it in one problem.
+    the Laplacian; besides: the text of all else, and what it is about; all of it in one problem. of_fleet: is
+    the theorem one about every connected graph with two nodes or more?
     """
 
     conditions: tuple[Condition, ...] = ()
     bounds: tuple[str, ...] = ()
     besides: tuple[tuple[str, str], ...] = ()
     problem: Problem | None = None
+    of_fleet: bool = False
 
 
 @dataclass(frozen=True)
@@ -68,9 +77,12 @@ class Conditions:
 
 def conditions(study: Study, theorem: Entry | None) -> Conditions:
     """The conditions of the standing theorem, then those that the study names. Raises StudyError."""
-    with within(replace(study.instance, variant="corrected")):
+    with within(replace(study.instance, variant=variant_of(theorem))):
         assumed = of_theorem(study, theorem) if theorem is not None else Hypotheses()
+    with within(replace(study.instance, variant="corrected")):
         named = [_named(study, entry) for entry in study.conditions.values()]
+    if theorem is None:
+        named += _positive_gains(study, named)
     each = (*assumed.conditions, *named)
     if not each:
         raise StudyError(
@@ -78,6 +90,11 @@ def conditions(study: Study, theorem: Entry | None) -> Conditions:
             "and it names none with @study.condition"
         )
     return Conditions(theorem.id if theorem else None, each, assumed)
+
+
+def variant_of(theorem: Entry | None) -> str:
+    """With which definitions the theorem is decided."""
+    return "printed" if theorem is not None and theorem.form == "printed" else "corrected"
 
 
 def of_theorem(study: Study, entry: Entry) -> Hypotheses:
@@ -89,21 +106,45 @@ def of_theorem(study: Study, entry: Entry) -> Hypotheses:
     statements |= {one.claim.text(): one.claim for one in study.assumed}
     found: list[Condition] = []
     bounds, besides, positive = [], [], []
-    for text, about in dict.fromkeys((given.text, given.about) for given in made.problem.given):
-        statement = statements.get(text)
+    for written, about in dict.fromkeys([*_given(made.problem), *_given_of_used(study, entry)]):
+        statement = statements.get(written)
         if isinstance(statement, LaplacianBound):
             bounds.append(_symbol(statement))
         elif statement is not None and _is_positive_gain(study, statement):
             positive.append(statement)
-        elif statement is not None and about == "parameter" and _is_constant(study, statement):
+        elif statement is not None and about == "parameter" and _is_on_gains(study, statement):
             id_, source = f"{entry.id}/{len(found) + 1}", f"{entry.equation} {entry.id}"
-            found.append(_condition(study, id_, text, source, True, [statement]))
+            found.append(_condition(study, id_, written, source, True, [statement]))
         else:
-            besides.append((text, about))
+            besides.append((written, about))
     if positive:
-        text = f"{', '.join(one.text().removesuffix(' > 0') for one in positive)} > 0"
-        found.append(_condition(study, f"{entry.id}/positive", text, "all gains", True, positive))
-    return Hypotheses(tuple(found), tuple(bounds), tuple(besides), made.problem)
+        found.append(_all_positive(study, f"{entry.id}/positive", True, positive))
+    return Hypotheses(tuple(found), tuple(bounds), tuple(besides), made.problem, is_fleet(made.problem))
+
+
+def _given(problem: Problem) -> list[tuple[str, str]]:
+    return [(given.text, given.about) for given in problem.given if given.about != PROVED]
+
+
+def _given_of_used(study: Study, entry: Entry) -> Iterator[tuple[str, str]]:
+    """What the statements assume that the theorem uses."""
+    for used in entry.using:
+        for part in parts(study, used.call(study), used.id):
+            yield from _given(part.problem)
+        yield from _given_of_used(study, used)
+
+
+def _all_positive(study: Study, id_: str, of_theorem: bool, listed: Sequence[Statement]) -> Condition:
+    text = f"{', '.join(one.text().removesuffix(' > 0') for one in listed)} > 0"
+    return _condition(study, id_, text, "all gains", of_theorem, listed)
+
+
+def _positive_gains(study: Study, named: Sequence[Condition]) -> list[Condition]:
+    """That the gains are positive of which the study's conditions speak."""
+    read = {name for one in named for name in one.names}
+    listed = [a.claim for a in study.assumed if _is_positive_gain(study, a.claim)]
+    listed = [one for one in listed if isinstance(one, Bound) and one.expr.args[0] in read]
+    return [_all_positive(study, "positive", False, listed)] if listed else []
 
 
 def _named(study: Study, entry: Entry) -> Condition:
@@ -112,21 +153,26 @@ def _named(study: Study, entry: Entry) -> Condition:
     for one in listed:
         if not isinstance(one, Bound | Definite | Equal | Nonzero):
             raise StudyError(
-                f"the condition {entry.id} must be a bound or a matrix that is definite, or a list of these"
+                f"the condition {entry.id} must be a bound, an equation, nonzero(x) or a matrix that is "
+                "definite, or a list of these"
             )
-    made = _condition(study, entry.id, entry.sentence, f"{entry.equation} {entry.id}", False, listed)
-    for name in made.names:
+    if not listed:
+        raise StudyError(f"the condition {entry.id} is an empty list")
+    for name in dict.fromkeys(n for one in listed for n in requirement(study, one, entry.id).names):
         if name not in (EIGENVALUE, DEGREE) and not _is_parameter(study, name):
             raise StudyError(
                 f"the condition {entry.id} speaks of {name}, which is no parameter: it must be one on gains"
             )
-    return made
+    return _condition(study, entry.id, entry.sentence, f"{entry.equation} {entry.id}", False, listed)
 
 
 def _condition(
     study: Study, id_: str, text: str, source: str, of_theorem: bool, listed: Sequence[Statement]
 ) -> Condition:
     requirements = tuple(requirement(study, one, id_) for one in listed)
+    for one in requirements:
+        if isinstance(one.statement, Definite) and not _is_symmetric(one):
+            raise StudyError(f"the condition {id_}: the matrix is not symmetric: {one.statement.text()}")
     latex = r",\; ".join(one.latex() for one in listed)
     return Condition(id_, text, latex, source, of_theorem, requirements)
 
@@ -140,6 +186,18 @@ def requirement(study: Study, statement: Statement, id_: str) -> Requirement:
         plain = nonnegative(statement.expr)
     problem = Collector(study).problem(plain, id_, expanded=_is_product(statement))
     return Requirement(statement, problem, kind, tuple(read_names(problem)))
+
+
+def _is_symmetric(made: Requirement) -> bool:
+    """Are the entries those of a symmetric matrix at a point that was not chosen for it?"""
+    domain, generator = Boxes(), random.Random(1)
+    at = {name: Fraction(generator.randint(10**6, 10**7), 10**6) for name in made.names}
+    boxes = {name: domain.between(value, value) for name, value in at.items()}
+    assert made.problem.claim.matrix is not None
+    try:
+        return is_symmetric(made.problem.claim.matrix, outputs(made, boxes, domain))
+    except Unsupported:
+        return True  # it is not decided over boxes
 
 
 def _is_product(statement: Statement) -> bool:
@@ -168,11 +226,21 @@ def _is_positive_gain(study: Study, statement: Statement) -> bool:
     return symbol is not None and symbol.gain
 
 
-def _is_constant(study: Study, statement: Statement) -> bool:
-    """Does it read parameters alone that belong to no node?"""
-    problem = requirement(study, statement, "constant").problem
-    plain = not any(meaning.is_ in ("sum", "total", "rate") for meaning in problem.names.values())
-    return plain and all(kind == "parameter" and ".*" not in name for name, kind in problem.scalars.items())
+def _is_on_gains(study: Study, statement: Statement) -> bool:
+    """Does it read constants that belong to no node, and among them a gain, or none without a value?"""
+    made = requirement(study, statement, "constant")
+    scalars, names = [name for name in made.names if name != DEGREE], made.problem.names
+    read = reached(made.problem)
+    if any(name in names and names[name].is_ in ("total", "rate") for name in read):
+        return False
+    if not all(_is_parameter(study, name) for name in scalars):
+        return False
+    return any(is_gain(study, n) for n in scalars) or all(study.value(n) is not None for n in scalars)
+
+
+def is_gain(study: Study, name: str) -> bool:
+    symbol = study.symbols.get(name)
+    return symbol is not None and symbol.gain
 
 
 def _is_parameter(study: Study, name: str) -> bool:

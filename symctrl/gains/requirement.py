@@ -216,10 +216,16 @@ class _Along(Environment):
         return Pair(self.name(name, level - 1, law), moves)
 
 
-def read_names(problem: Problem) -> Iterator[str]:
-    """The scalars that a problem's claim reads, and the degree where it sums over neighbours."""
+def reached(problem: Problem) -> set[str]:
+    """The names that a problem's claim reads, and those that these stand for."""
     reach = Reach(problem)
     reach.listing(problem.claim.listing)
-    yield from (name for name in problem.scalars if name in reach.read)
-    if any(m.is_ == "sum" for name, m in problem.names.items() if name in reach.read):
+    return reach.read
+
+
+def read_names(problem: Problem) -> Iterator[str]:
+    """The scalars that a problem's claim reads, and the degree where it sums over neighbours."""
+    read = reached(problem)
+    yield from (name for name in problem.scalars if name in read)
+    if any(meaning.is_ == "sum" for name, meaning in problem.names.items() if name in read):
         yield DEGREE

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from symctrl.context import within
 from symctrl.expr import Nonconforming
 from symctrl.listings import UndefinedLetter
+from symctrl.rows import Row
 from symctrl.theorem import Theorem
 from symctrl.verify import verify
 from symctrl.written import Entry, StudyError
@@ -21,25 +22,49 @@ if TYPE_CHECKING:
 
 
 def standing_theorem(study: Study, store: Store | None, progress: Callable[[str], None]) -> Entry | None:
-    """None where no theorem stands, or none that does assumes anything of a symbol that has a value."""
+    """None where no theorem stands for all values, or none that does assumes anything of a gain."""
     for entry in reversed(study.entries.values()):
-        if _asks_of_gains(study, entry):
-            row = next(r for r in verify(study, [entry.id], store, progress).rows if r.id == entry.id)
-            if row.stands:
-                return entry
+        if _asks_of_gains(study, entry) and _stands(study, entry, store, progress):
+            return entry
     return None
 
 
+def _stands(study: Study, entry: Entry, store: Store | None, progress: Callable[[str], None]) -> bool:
+    """Does the theorem stand, with all that it rests on, and none of it for the study's values alone?"""
+    wanted, rows = {entry.id}, dict[str, Row]()
+    while True:
+        rows = {row.id: row for row in verify(study, wanted, store, progress, rows).rows}
+        below = {_base(id_) for row in rows.values() for id_ in _below(study, row)}
+        if below <= {_base(id_) for id_ in rows}:
+            break
+        wanted |= below
+    return rows[entry.id].stands and not any(_at_values(row) for row in rows.values())
+
+
+def _below(study: Study, row: Row) -> list[str]:
+    """The claims that a row rests on, and those that correct them."""
+    named = [_base(id_) for id_ in row.rests_on if _base(id_) in study.entries]
+    return [*named, *(e.id for e in study.entries.values() if e.corrects in named)]
+
+
+def _base(id_: str) -> str:
+    return id_.partition("[")[0]
+
+
+def _at_values(row: Row) -> bool:
+    return any(one.by == "the exact values of the study" for one in row.conditions)
+
+
 def _asks_of_gains(study: Study, entry: Entry) -> bool:
-    from symctrl.gains.conditions import of_theorem
+    from symctrl.gains.conditions import of_theorem, variant_of
 
     if entry.readings or entry.nodes:
         return False
-    with within(replace(study.instance, variant="corrected")):
+    with within(replace(study.instance, variant=variant_of(entry))):
         try:
             if not isinstance(entry.call(study), Theorem):
                 return False
             found = of_theorem(study, entry)
         except (Nonconforming, UndefinedLetter, StudyError):
             return False
-    return any(study.value(name) is not None for one in found.conditions for name in one.names)
+    return bool(found.conditions)
