@@ -20,6 +20,7 @@ from symctrl.kernel import (
     definite,
     identity,
     laplacian,
+    sos,
     squeeze,
     theorem,
     total,
@@ -44,6 +45,8 @@ PROOFS: dict[str, Rules] = {
     "argument": theorem.needed_conditions,
     "against": against.needed_conditions,
 }
+# Statements with a form of their own: each of these modules knows its own, reads, prints and verifies it.
+OTHERS: tuple[Any, ...] = (laplacian, sos)
 REFUTING = ("witness", "against")
 EXIT_CODES = {"valid": 0, "invalid": 1, "unreadable": 2, "declined": 3}
 SEVERITY = ("unreadable", "invalid", "declined", "valid")  # worst first
@@ -82,28 +85,29 @@ def _attempt(work: Callable[[Any], Answer], about: Any) -> Answer:
 
 
 def _decide(part: Any) -> Answer:
-    if type(part) is dict and laplacian.is_meant(part.get("statement")):
-        return _decide_laplacian(part)
+    for rules in OTHERS:
+        if type(part) is dict and rules.is_meant(part.get("statement")):
+            return _decide_other(part, rules)
     certificate = read(part)
     statement = print_statement(certificate.statement, refuted=certificate.proof.get("kind") in REFUTING)
     done = _attempt(_verify, certificate)
     return Answer(done.status, statement, done.reason)
 
 
-def _decide_laplacian(part: Any) -> Answer:
-    """A statement about a graph alone, with proofs of its own."""
+def _decide_other(part: Any, rules: Any) -> Answer:
+    """A statement that has a form of its own, with proofs of its own."""
     top = opened(part)
     text_field(top["tool"], "tool")
     proof = typed(top["proof"], dict, "proof")
-    statement = laplacian.read_statement(top["statement"])
+    statement = rules.read_statement(top["statement"])
     kind = proof.get("kind")
-    text = laplacian.print_statement(statement, refuted=kind in REFUTING)
-    done = _attempt(lambda _: _laplacian_answer(statement, proof), None)
+    text = rules.print_statement(statement, refuted=kind in REFUTING)
+    done = _attempt(lambda _: _answer_other(statement, proof, rules), None)
     return Answer(done.status, text, done.reason)
 
 
-def _laplacian_answer(statement: laplacian.Statement, proof: dict[str, Any]) -> Answer:
-    laplacian.verify(statement, proof)
+def _answer_other(statement: Any, proof: dict[str, Any], rules: Any) -> Answer:
+    rules.verify(statement, proof)
     return Answer("valid", "", f"verified by its {proof['kind']}")
 
 

@@ -10,16 +10,22 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tests.arena import arguments, bad, bad_arguments, corner, false_arguments, good, laplacians
+from tests.arena import arguments, bad, bad_arguments, corner, false_arguments, good, laplacians, polynomials
 
 ROOT = Path(__file__).parent
 
 
 def main() -> None:
     expected = {}
-    rights = {**good.CASES, **arguments.CASES, **laplacians.GOOD}
-    wrongs = {**bad.CASES, **bad_arguments.CASES, **false_arguments.CASES, **laplacians.BAD}
-    corners = {**corner.CASES, **bad_arguments.DECLINED, **laplacians.CORNER}
+    rights = {**good.CASES, **arguments.CASES, **laplacians.GOOD, **polynomials.GOOD}
+    wrongs = {
+        **bad.CASES,
+        **bad_arguments.CASES,
+        **false_arguments.CASES,
+        **laplacians.BAD,
+        **polynomials.BAD,
+    }
+    corners = {**corner.CASES, **bad_arguments.DECLINED, **laplacians.CORNER, **polynomials.CORNER}
     for folder, cases in (("good", rights), ("bad", wrongs), ("corner", corners)):
         for old in (ROOT / folder).glob("*.json"):
             old.unlink()
