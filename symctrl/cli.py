@@ -263,6 +263,52 @@ def posdef(
     raise typer.Exit(0 if len(answers) > 1 else {"proved": 0, "refuted": 1}.get(answers[0]["verdict"], 3))
 
 
+@app.command()
+def sos(
+    poly: Annotated[str | None, typer.Argument(metavar="POLY", show_default=False)] = None,
+    *,
+    names: Annotated[
+        str | None,
+        typer.Option("--vars", metavar="x,y", help="The variables; those that occur unless given."),
+    ] = None,
+    on: Annotated[
+        str | None, typer.Option("--on", metavar="CONSTRAINTS", help="Like '1-x^2>=0, x*y==0'.")
+    ] = None,
+    batch: Annotated[
+        Path | None, typer.Option(metavar="PROBLEMS.json", help='A list of {"id", "poly", "vars", "on"}.')
+    ] = None,
+    limit: Annotated[
+        float | None, typer.Option(metavar="SECONDS", help="For each problem; 30 unless given.")
+    ] = None,
+    json: JsonFile = None,
+) -> None:
+    """Decide exactly whether a polynomial is nonnegative, everywhere or on a set.
+
+    One problem: exits 0 proved, 1 refuted, 3 undecided. A batch: 0 when each has an answer.
+    """
+    os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
+    from symctrl.sos import command
+
+    _refuse_early(json)
+    if (poly is None) == (batch is None):
+        raise InputError("sos: give one polynomial, or a file of problems with --batch")
+    if poly is not None:
+        found = command.single(poly, names, on, limit)
+        if json != "-":
+            print(command.line(found))
+        _emit(json, found)
+        raise typer.Exit(command.EXIT_CODES[found["verdict"]])
+    if batch is None or names is not None or on is not None:
+        raise InputError("sos: the variables and sets of a batch stand in its file")
+    answers = []
+    with _watch("sos") as watch:
+        for found in command.batch(batch, limit, watch):
+            answers.append(found)
+            if json != "-":
+                print(f"{found['id']}: {command.line(found)}", flush=True)
+    _emit(json, answers)
+
+
 def _chosen(command: str, names: Sequence[str], every: bool) -> list[str]:
     from symctrl import registry
 

@@ -1,0 +1,70 @@
+"""A sum of squares for a programme: solve in floats, round at the first point that is far enough inside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from symctrl.sos.deadline import Deadline
+from symctrl.sos.interior import iterates
+from symctrl.sos.programme import Programme, grams, sample
+from symctrl.sos.proof import Part
+from symctrl.sos.ring import Poly
+from symctrl.sos.rounding import monomial_parts
+
+# Relative to the margin, what may be left of the identity when rounding is tried.
+_RESIDUAL = 0.05
+_CLEAR = 1e-9
+
+
+@dataclass(frozen=True)
+class Found:
+    """An exact identity: the target is the sum of the parts and of the multiples times what is zero."""
+
+    parts: tuple[Part, ...]
+    multiples: tuple[Poly, ...] = ()
+
+
+@dataclass(frozen=True)
+class Missed:
+    """No identity. lam: the best margin in floats, None where there is none; bound: of the dual."""
+
+    lam: float | None
+    moments: Any = None
+    points: Any = None
+
+
+def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()) -> Found | Missed:
+    """An exact identity for the programme. Raises TooLarge and Late."""
+    if not programme.reaches:
+        return Missed(None)
+    programme.require_room(seconds=max(deadline.left, 1.0))
+    samples = sample(programme)
+    last = None
+    for point in iterates(samples):
+        deadline.check()
+        last = point
+        if point.lam > 0 and point.residual < _RESIDUAL * point.lam:
+            found = _rounded(programme, samples, point.grams, zero)
+            if found is not None:
+                return found
+        if (
+            point.dual_residual < 1e-9
+            and point.bound < -_CLEAR
+            and point.lam < 0
+            and point.residual < -point.lam
+        ):
+            break
+    if last is None:
+        return Missed(None)
+    return Missed(last.lam, last.moments, samples.points)
+
+
+def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, ...]) -> Found | None:
+    hs = grams(samples, found)
+    bases = [block.monomials for block in programme.blocks]
+    over = programme.target.context()
+    if not programme.multiples and all(b is not None for b in bases):
+        parts = monomial_parts(programme.target, [b for b in bases if b is not None], hs, over)
+        return None if parts is None else Found(tuple(parts))
+    return None
