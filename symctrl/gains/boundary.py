@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from symctrl.collect import Collector
 from symctrl.decide.session import Session, exactly
 from symctrl.domains.domain import Unsupported
-from symctrl.domains.field import Poly
-from symctrl.gains.conditions import Condition
-from symctrl.gains.requirement import Cases, Requirement
+from symctrl.domains.field import Exact, Poly
+from symctrl.fleet import EIGENVALUE
+from symctrl.gains.conditions import Condition, is_gain
+from symctrl.gains.requirement import DEGREE, Case, Cases, Requirement
 
 if TYPE_CHECKING:
     from symctrl.study import Study
 
 Solution = tuple[str, str]
+Powers = tuple[tuple[int, int], ...]  # (generator, exponent), increasing
+Terms = Mapping[Powers, Fraction]
 
 
 def boundary(study: Study, deciding: Sequence[Condition], cases: Cases, gains: Sequence[str]) -> str | None:
@@ -34,65 +37,118 @@ def boundary(study: Study, deciding: Sequence[Condition], cases: Cases, gains: S
 
 
 def _of(study: Study, one: Requirement, cases: Cases, gains: Sequence[str]) -> str | None:
-    """The edge is where the bound's value is zero. A case is at the end that decides, if its ends are one."""
-    known = {n: cases[n].hull[1] for n in one.names if n in cases and _is_known(cases, n)}
-    open_ = [n for n in one.names if n in cases and n not in known]
+    """The edge is where the bound's value is zero."""
     wanted = [n for n in gains if n in one.names]
-    if open_ or not wanted or len([n for n in one.names if n not in cases]) < 2:
+    if DEGREE in one.names or not wanted or len(set(one.names) - {EIGENVALUE}) < 2:
         return None
-    problem = Collector(study, known).problem(one.statement, one.problem.id)
+    problem = Collector(study).problem(one.statement, one.problem.id)
     try:
-        solved = exactly(problem, lambda session: _solved(session, wanted))
+        solved = exactly(problem, lambda session: _solved(study, session, cases, wanted))
     except Unsupported:
         return None
     return None if solved is None else " = ".join(solved)
 
 
-def _is_known(cases: Cases, name: str) -> bool:
-    """Has the case one value, or is its least admissible value known exactly?"""
-    low, high = cases[name].hull
-    tops = [upper if upper is not None else lower for lower, upper in cases[name].ranges]
-    return bool(tops) and tops[-1] == high and (low == high or cases[name].ranges[-1][0] == high)
-
-
-def _solved(session: Session, wanted: Sequence[str]) -> Solution | None:
+def _solved(study: Study, session: Session, cases: Cases, wanted: Sequence[str]) -> Solution | None:
     """A bound of one value that is affine in a gain, solved for it."""
-    values = session.claim()
+    values, field = session.claim(), session.domain.field
     if len(values) != 1:
         return None
-    p, names = session.carrier(values[0]), [g.name for g in session.domain.field.generators]
+    signed, p = (_terms(q, field.size) for q in (session.carrier(values[0]), _numerator(session, values[0])))
+    read = {k for powers in (*signed, *p) for k, _ in powers}
+    if any(field.generators[k].kind != "free" for k in read):
+        return None
+    names = [g.name for g in field.generators]
+    positive = {k for k, name in enumerate(names) if name in cases or is_gain(study, name)}
+    for k in sorted(read):
+        if names[k] in cases and not _is_chosen(cases[names[k]]):
+            certain = _divides_not(session, values[0], k) and _is_signed(signed, k, positive)
+            end = _end(signed, k, cases[names[k]]) if certain else None
+            if end is None:
+                return None
+            p = _at(p, k, end)
     for gain in wanted:
-        if gain in names:
-            solved = _affine(session, p, names, names.index(gain))
-            if solved is not None:
-                return gain, solved
+        solved = _affine(p, names, names.index(gain)) if gain in names else None
+        if solved is not None:
+            return gain, solved
     return None
 
 
-def _affine(session: Session, p: Poly, names: Sequence[str], k: int) -> str | None:
-    size = session.domain.field.size
-    slope: dict[tuple[int, ...], Fraction] = {}
-    rest: dict[tuple[int, ...], Fraction] = {}
+def _numerator(session: Session, value: Exact) -> Poly:
+    return session.domain.together(value)[0]
+
+
+def _divides_not(session: Session, value: Exact, k: int) -> bool:
+    """Does the value divide by nothing in which the generator occurs?"""
+    field = session.domain.field
+    factors = [field.factors[f] for f, _ in session.domain.together(value)[1]]
+    return all(k not in field.occurring(factor) for factor in factors)
+
+
+def _is_signed(p: Terms, k: int, positive: Set[int]) -> bool:
+    """Has each term in which generator k occurs the sign of its coefficient, where some are not negative?"""
+    return all(g in positive or e % 2 == 0 for powers in p if k in dict(powers) for g, e in powers)
+
+
+def _terms(p: Poly, size: int) -> Terms:
+    made = {}
     for exponents, c in p.terms():
-        powers = [int(exponents[size - 1 - g]) for g in range(len(names))]
-        if powers[k] > 1:
+        powers = tuple((k, int(exponents[size - 1 - k])) for k in range(size) if exponents[size - 1 - k])
+        made[powers] = Fraction(int(c.p), int(c.q))
+    return made
+
+
+def _is_chosen(case: Case) -> bool:
+    """Is it a gain, or a bound of eigenvalues, of which the best value is not known? It stays a letter."""
+    low, high = case.hull
+    return low == high and case.ranges[0] not in ((low, None), (low, low))
+
+
+def _end(signed: Terms, k: int, case: Case) -> Fraction | None:
+    """The value of a case at which the bound is decided, for positive gains, if that is known exactly.
+
+    The bound is least at the largest value if its derivative is nowhere positive, and at the least one if it
+    is nowhere negative. signed: a polynomial that has its sign.
+    """
+    low, high = case.hull
+    signs = {c > 0 for powers, c in signed.items() if k in dict(powers)}
+    if low == high or not signs:
+        return high
+    if len(signs) > 1:
+        return None
+    end = low if signs == {True} else high
+    return end if (end, end) in case.ranges else None
+
+
+def _at(p: Terms, k: int, value: Fraction) -> Terms:
+    made: dict[Powers, Fraction] = {}
+    for powers, c in p.items():
+        rest = tuple((g, e) for g, e in powers if g != k)
+        made[rest] = made.get(rest, Fraction(0)) + c * value ** dict(powers).get(k, 0)
+    return {powers: c for powers, c in made.items() if c}
+
+
+def _affine(p: Terms, names: Sequence[str], k: int) -> str | None:
+    slope: dict[Powers, Fraction] = {}
+    rest: dict[Powers, Fraction] = {}
+    for powers, c in p.items():
+        e = dict(powers).get(k, 0)
+        if e > 1:
             return None
-        into = slope if powers[k] == 1 else rest
-        powers[k] = 0
-        into[tuple(powers)] = Fraction(int(c.p), int(c.q))
+        into = slope if e == 1 else rest
+        into[tuple(pair for pair in powers if pair[0] != k)] = c
     if not slope or not rest:
         return None
-    if len(slope) == 1 and not any(next(iter(slope))):
-        by = next(iter(slope.values()))
-        return _text({m: -c / by for m, c in rest.items()}, names)
+    if len(slope) == 1 and () in slope:
+        return _text({m: -c / slope[()] for m, c in rest.items()}, names)
     over = _text({m: -c for m, c in rest.items()}, names)
     return f"({over})/({_text(slope, names)})"
 
 
-def _text(p: Mapping[tuple[int, ...], Fraction], names: Sequence[str]) -> str:
+def _text(p: Terms, names: Sequence[str]) -> str:
     terms = []
     for powers, c in p.items():
-        factors = [f"{names[g]}^{e}" if e > 1 else names[g] for g, e in enumerate(powers) if e]
+        factors = [f"{names[g]}^{e}" if e > 1 else names[g] for g, e in powers]
         number = [str(abs(c))] if abs(c) != 1 or not factors else []
         terms.append(("- " if c < 0 else "+ ") + "*".join(number + factors))
     text = " ".join(terms)

@@ -10,15 +10,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from symctrl.bounds import Bound
 from symctrl.decide.points import points
 from symctrl.decide.solve import NoPoint
 from symctrl.domains.boxes import Box, Boxes, rounded
 from symctrl.domains.domain import Unsupported
 from symctrl.fleet import EIGENVALUE
-from symctrl.gains.conditions import Conditions
+from symctrl.gains.conditions import Conditions, is_gain
 from symctrl.gains.definite import HOLDS
-from symctrl.gains.requirement import DEGREE, Case, Cases, Interval, Requirement, outputs, state
+from symctrl.gains.requirement import DEGREE, Case, Cases, Requirement, known, outputs
 from symctrl.problem import Meaning
 
 if TYPE_CHECKING:
@@ -52,7 +51,10 @@ def thresholds(found: Conditions, gains: Mapping[str, Fraction]) -> list[Fractio
         ):
             continue
         at = {name: domain.between(value, value) for name, value in gains.items()}
-        values = [_value(one, {**at, read[0]: domain.constant(Fraction(k))}, domain) for k in (0, 1, 2)]
+        try:
+            values = [_value(one, {**at, read[0]: domain.constant(Fraction(k))}, domain) for k in (0, 1, 2)]
+        except Unsupported:
+            continue
         slope = values[1] - values[0]
         if slope and values[2] - values[1] == slope:
             known.append(-values[0] / slope)
@@ -72,8 +74,8 @@ def of_graph(
 ) -> dict[str, Case]:
     """The cases that the graph decides. spectrum: bounds of the Laplacian's largest eigenvalue.
 
-    0 is an eigenvalue of every Laplacian, and what is assumed to be no less than all eigenvalues is best
-    chosen as the largest.
+    0 is an eigenvalue of every Laplacian. What is assumed to be no less than all eigenvalues is chosen: as
+    the largest, or for a condition to fail, as anything that is not less.
     """
     cases: dict[str, Case] = {}
     if spectrum is not None:
@@ -87,25 +89,39 @@ def of_graph(
     return cases
 
 
+def covers(found: Conditions, graph: nx.Graph | None) -> bool:
+    """Is the graph one that the theorem is about? A theorem on a fleet is about connected graphs with two
+    nodes or more.
+    """
+    if graph is None or not found.assumed.of_fleet:
+        return True
+    import networkx as nx
+
+    return len(graph) > 1 and bool(nx.is_connected(graph))
+
+
 def chosen(study: Study, found: Conditions, cases: Cases, gains: Mapping[str, Fraction]) -> dict[str, Case]:
-    """A value for each constant that has none: one of an admissible point of the theorem at these gains;
-    where none is known, one with which as many conditions hold as may be.
+    """A value for each gain that has none: those of an admissible point of the theorem at the other gains, if
+    they serve as many conditions as any that are tried.
+
+    Whether a condition fails is asked of all values that the gain may take.
     """
     names = dict.fromkeys(name for condition in found.each for name in condition.names)
-    open_ = [name for name in names if name not in cases and name not in gains]
+    open_ = [n for n in names if n not in cases and n not in gains and is_gain(study, n)]
+    if not open_:
+        return {}
     at_point = admissible_constants(found, gains) or {}
-    values = {name: at_point[name] for name in open_ if name in at_point}
-    left = [name for name in open_ if name not in values]
-    if left:
-        requirements = [one for condition in found.each for one in condition.requirements]
-        tried = _tried(len(left))
-        good = _score(requirements, left, tried, cases, {**gains, **values})
-        values |= dict(zip(left, tried[int(np.argmax(good))], strict=True))
-    return {name: Case((value, value), _range(study, name)) for name, value in values.items()}
+    tried = _tried(len(open_))
+    if all(name in at_point for name in open_):
+        tried.insert(0, tuple(at_point[name] for name in open_))
+    requirements = [one for condition in found.deciding for one in condition.requirements]
+    best = tried[int(np.argmax(_score(requirements, open_, tried, cases, gains)))]
+    return {name: Case((v, v), ((ZERO, None),)) for name, v in zip(open_, best, strict=True)}
 
 
 def admissible_constants(found: Conditions, gains: Mapping[str, Fraction]) -> Mapping[str, Fraction] | None:
-    """All values at a point at which everything that the theorem assumes holds together, with these gains.
+    """All values at a point at which everything that the theorem assumes holds together, with these gains, on
+    some small graph.
 
     Without one the theorem may speak of nothing. None where none is known.
     """
@@ -144,17 +160,5 @@ def _score(
     good = np.zeros(len(values))
     for one in requirements:
         if all(name in boxes or name in cases for name in one.names):
-            try:
-                good = good + (state(one, boxes, cases, domain) == HOLDS)
-            except Unsupported:
-                continue
+            good = good + (known(one, boxes, cases, domain) == HOLDS)
     return good
-
-
-def _range(study: Study, name: str) -> tuple[Interval, ...]:
-    """Where the value may lie at all: above zero if the study assumes that it is positive."""
-    for assumed in study.assumed:
-        claim = assumed.claim
-        if isinstance(claim, Bound) and claim.expr.op == "symbol" and claim.expr.args[0] == name:
-            return ((ZERO, None),)
-    return ()

@@ -81,8 +81,7 @@ def conditions(study: Study, theorem: Entry | None) -> Conditions:
         assumed = of_theorem(study, theorem) if theorem is not None else Hypotheses()
     with within(replace(study.instance, variant="corrected")):
         named = [_named(study, entry) for entry in study.conditions.values()]
-    if theorem is None:
-        named += _positive_gains(study, named)
+        named += _assumed(study, named) if theorem is None else []
     each = (*assumed.conditions, *named)
     if not each:
         raise StudyError(
@@ -139,12 +138,17 @@ def _all_positive(study: Study, id_: str, of_theorem: bool, listed: Sequence[Sta
     return _condition(study, id_, text, "all gains", of_theorem, listed)
 
 
-def _positive_gains(study: Study, named: Sequence[Condition]) -> list[Condition]:
-    """That the gains are positive of which the study's conditions speak."""
-    read = {name for one in named for name in one.names}
-    listed = [a.claim for a in study.assumed if _is_positive_gain(study, a.claim)]
-    listed = [one for one in listed if isinstance(one, Bound) and one.expr.args[0] in read]
-    return [_all_positive(study, "positive", False, listed)] if listed else []
+def _assumed(study: Study, named: Sequence[Condition]) -> list[Condition]:
+    """What the study assumes of the gains of which its conditions speak: first that they are positive."""
+    read = {name for one in named for name in one.names if is_gain(study, name)}
+    claims = [a.claim for a in study.assumed if a.about == "parameter" and _is_on_gains(study, a.claim)]
+    claims = [one for one in claims if read & set(requirement(study, one, "assumed").names)]
+    positive = [one for one in claims if _is_positive_gain(study, one)]
+    others = [one for one in claims if one not in positive]
+    made = [_all_positive(study, "positive", False, positive)] if positive else []
+    for k, one in enumerate(others, 1):
+        made.append(_condition(study, f"assumed/{k}", one.text(), "assumed", False, [one]))
+    return made
 
 
 def _named(study: Study, entry: Entry) -> Condition:

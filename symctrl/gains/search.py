@@ -17,31 +17,45 @@ from symctrl.gains.definite import HOLDS
 from symctrl.gains.maps import together
 from symctrl.gains.requirement import Cases, Requirement, state
 
-CANDIDATES = 4096
-ROUNDS = 6
-NARROWER = 0.35  # of the ranges, from round to round
-STEPS = 24  # of bisection
+CANDIDATES = 512
+ROUNDS = 9
+NARROWER = 0.5  # of the ranges, from round to round
+STEPS = 16  # of bisection
 FINEST = 10_000  # a margin is a multiple of one part in this many
 GOOD = 0.99  # of the best objective is what rounded gains must reach
 MOST_DIGITS = 6
 
 Gains = Mapping[str, Fraction]
 Ranges = Mapping[str, tuple[Fraction, Fraction]]
+Rate = Callable[[Mapping[str, Box], Boxes], Box]
 
 
 @dataclass(frozen=True)
 class Best:
-    """gains: of few digits. objective: certified for them."""
+    """gains: of few digits. objective: certified for them; None where no feasible gains were found."""
 
     gains: Gains
-    objective: Fraction
+    objective: Fraction | None
+
+
+@dataclass(frozen=True)
+class Among:
+    """Where is looked: gains within the ranges, with the values of the others, that meet the requirements."""
+
+    requirements: Sequence[Requirement]
+    values: Gains
+    ranges: Ranges
+    cases: Cases
+
+    def boxes(self, at: Mapping[str, Box], domain: Boxes) -> dict[str, Box]:
+        return {name: domain.between(value, value) for name, value in self.values.items()} | dict(at)
 
 
 def margin(
     requirements: Sequence[Requirement], gains: Gains, varied: Sequence[str], cases: Cases
 ) -> Fraction:
-    """The largest multiple r of 1/FINEST that is found, such that all gains within the factors 1 - r and
-    1 + r meet the requirements; 0 where the point itself does not. Exact.
+    """The largest multiple r of 1/FINEST below 1 that is found, such that all gains within the factors 1 - r
+    and 1 + r meet the requirements; for gains that meet them.
     """
     low, high = 0, FINEST
     while high - low > 1:
@@ -56,72 +70,88 @@ def margin(
 def _all_hold(
     requirements: Sequence[Requirement], gains: Gains, varied: Sequence[str], cases: Cases, r: Fraction
 ) -> bool:
-    domain = Boxes(exact=True)
-    boxes = {name: domain.between(value, value) for name, value in gains.items()}
-    boxes |= {n: domain.between(gains[n] * (1 - r), gains[n] * (1 + r)) for n in varied}
-    try:
-        return all(bool((state(one, boxes, cases, domain) == HOLDS).all()) for one in requirements)
-    except Unsupported:
+    """Exactly, or where that is not to be had, rounded outward."""
+
+    def holds(one: Requirement) -> bool:
+        for domain in (Boxes(exact=True), Boxes()):
+            boxes = {name: domain.between(value, value) for name, value in gains.items()}
+            ends = {name: sorted((gains[name] * (1 - r), gains[name] * (1 + r))) for name in varied}
+            boxes |= {name: domain.between(low, high) for name, (low, high) in ends.items()}
+            try:
+                return bool((state(one, boxes, cases, domain) == HOLDS).all())
+            except Unsupported:
+                continue
         return False
 
-
-def largest_margin(requirements: Sequence[Requirement], gains: Gains, ranges: Ranges, cases: Cases) -> Best:
-    """Gains within the ranges with a margin as large as is found."""
-
-    def radius(candidates: Mapping[str, Array]) -> Array:
-        return _radii(requirements, gains, candidates, cases)
-
-    def certified(chosen: Gains) -> Fraction:
-        return margin(requirements, {**gains, **chosen}, list(ranges), cases)
-
-    return _best(ranges, radius, certified)
+    return all(map(holds, requirements))
 
 
-def _radii(requirements: Sequence[Requirement], gains: Gains, at: Mapping[str, Array], cases: Cases) -> Array:
-    """The margin of each candidate in floating point."""
+def largest_margin(among: Among, varied: Sequence[str]) -> Best:
+    """Gains with a margin as large as is found."""
+
+    def certified(gains: Gains) -> Fraction | None:
+        at = {**among.values, **gains}
+        if not _all_hold(among.requirements, at, (), among.cases, Fraction(0)):
+            return None
+        return margin(among.requirements, at, varied, among.cases)
+
+    return _best(among, lambda at: _radii(among, at, varied), certified)
+
+
+def _radii(among: Among, at: Mapping[str, Array], varied: Sequence[str]) -> Array:
+    """The margin of each candidate in floating point; -1 where it is not feasible."""
     domain, count = Boxes(), len(next(iter(at.values())))
-    fixed = {name: domain.between(value, value) for name, value in gains.items()}
-    low, high = np.full(count, -1e-9), np.ones(count)
+    centre: dict[str, Array] = {
+        name: np.array([float(among.values[name])]) for name in varied if name not in at
+    }
+    centre |= at
+
+    def good(r: Array) -> Array:
+        boxes = {name: Box(x * (1 - r), x * (1 + r)) for name, x in centre.items()}
+        return together(among.requirements, among.boxes(boxes, domain), among.cases, domain, count) == HOLDS
+
+    low, high = np.zeros(count), np.ones(count)
     for _ in range(STEPS):
         r = (low + high) / 2
-        boxes = {**fixed, **{n: Box(x * (1 - r), x * (1 + r)) for n, x in at.items()}}
-        good = together(requirements, boxes, cases, domain, count) == HOLDS
-        low, high = np.where(good, r, low), np.where(good, high, r)
-    return low
+        found = good(r)
+        low, high = np.where(found, r, low), np.where(found, high, r)
+    return np.where(good(low), low, -1.0)
 
 
-def fastest(
-    requirements: Sequence[Requirement],
-    rate: Callable[[Mapping[str, Box], Boxes], Box],
-    gains: Gains,
-    ranges: Ranges,
-    cases: Cases,
-) -> Best:
-    """Feasible gains within the ranges with a rate of decay as large as is found."""
-    floats, exact = Boxes(), Boxes(exact=True)
-    fixed = {name: floats.between(value, value) for name, value in gains.items()}
+def fastest(among: Among, rate: Rate) -> Best:
+    """Feasible gains with a rate of decay as large as is found."""
+    floats = Boxes()
 
-    def speed(candidates: Mapping[str, Array]) -> Array:
-        count = len(next(iter(candidates.values())))
-        boxes = {**fixed, **{name: Box(x, x) for name, x in candidates.items()}}
-        good = together(requirements, boxes, cases, floats, count) == HOLDS
-        return np.where(good, np.broadcast_to(rate(boxes, floats).low, count), -1.0)
+    def speed(at: Mapping[str, Array]) -> Array:
+        count = len(next(iter(at.values())))
+        boxes = among.boxes({name: Box(x, x) for name, x in at.items()}, floats)
+        good = together(among.requirements, boxes, among.cases, floats, count) == HOLDS
+        found = np.broadcast_to(rate(boxes, floats).low, count)
+        return np.where(good & np.isfinite(found), found, -1.0)
 
-    def certified(chosen: Gains) -> Fraction:
-        at = {**gains, **chosen}
-        if not _all_hold(requirements, at, (), cases, Fraction(0)):
-            return Fraction(0)
-        return Fraction(rate({n: exact.between(v, v) for n, v in at.items()}, exact).low[0])
+    def certified(gains: Gains) -> Fraction | None:
+        at = {**among.values, **gains}
+        if not _all_hold(among.requirements, at, (), among.cases, Fraction(0)):
+            return None
+        for domain in (Boxes(exact=True), floats):
+            try:
+                low = rate({n: domain.between(v, v) for n, v in at.items()}, domain).low[0]
+            except Unsupported:
+                continue
+            return Fraction(low) if np.isfinite(float(low)) else None
+        return None
 
-    return _best(ranges, speed, certified)
+    return _best(among, speed, certified)
 
 
 def _best(
-    ranges: Ranges, objective: Callable[[Mapping[str, Array]], Array], certified: Callable[[Gains], Fraction]
+    among: Among,
+    objective: Callable[[Mapping[str, Array]], Array],
+    certified: Callable[[Gains], Fraction | None],
 ) -> Best:
     """The best of random candidates, in ranges that close in on it; then with as few digits as will do."""
     generator = np.random.default_rng(1)
-    spans = {name: (float(lo), float(hi)) for name, (lo, hi) in ranges.items()}
+    spans = {name: (float(lo), float(hi)) for name, (lo, hi) in among.ranges.items()}
     best, value = {name: (lo + hi) / 2 for name, (lo, hi) in spans.items()}, -np.inf
     for _ in range(ROUNDS):
         drawn = {name: generator.uniform(lo, hi, CANDIDATES) for name, (lo, hi) in spans.items()}
@@ -129,8 +159,10 @@ def _best(
         found = objective(drawn)
         k = int(np.argmax(found))
         best, value = {name: float(x[k]) for name, x in drawn.items()}, float(found[k])
-        spans = {name: _closer(ranges[name], span, best[name]) for name, span in spans.items()}
-    return _rounded(best, value, ranges, certified)
+        if value < 0:  # none is feasible yet: look everywhere again
+            continue
+        spans = {name: _closer(among.ranges[name], span, best[name]) for name, span in spans.items()}
+    return _rounded(best, value, among.ranges, certified)
 
 
 def _closer(
@@ -141,15 +173,18 @@ def _closer(
 
 
 def _rounded(
-    best: Mapping[str, float], value: float, ranges: Ranges, certified: Callable[[Gains], Fraction]
+    best: Mapping[str, float],
+    value: float,
+    ranges: Ranges,
+    certified: Callable[[Gains], Fraction | None],
 ) -> Best:
-    found = Best({}, Fraction(-1))
+    found = Best({}, None)
     for digits in range(1, MOST_DIGITS + 1):
         gains = {name: _within(Fraction(f"{x:.{digits}g}"), ranges[name]) for name, x in best.items()}
-        made = Best(gains, certified(gains))
-        if made.objective > found.objective:
-            found = made
-        if float(found.objective) >= GOOD * value:
+        objective = certified(gains)
+        if objective is not None and (found.objective is None or objective > found.objective):
+            found = Best(gains, objective)
+        if found.objective is not None and float(found.objective) >= GOOD * value:
             break
     return found
 

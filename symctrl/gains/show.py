@@ -11,6 +11,7 @@ from rich.table import Table
 from symctrl.gains.answer import Gains
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
 from symctrl.gains.point import Answer
+from symctrl.gains.search import Best
 
 MARKS = {HOLDS: "✓", FAILS: "✗", OPEN: "?"}
 LONG = 12  # characters of an exact number beyond which a decimal, rounded to the safe side, is shown
@@ -23,6 +24,10 @@ def show(found: Gains, console: Console) -> None:
     console.print(
         f"{found.study}{where}: {MARKS[found.state]} {found.verdict}" + f" at {named}" * bool(named)
     )
+    if found.reason:
+        console.print(found.reason)
+    if found.chosen:
+        console.print("chosen: " + ", ".join(f"{name} = {value}" for name, value in found.chosen.items()))
     console.print(_table(found))
     if found.spectrum is not None:
         low, high = found.spectrum.low, found.spectrum.high
@@ -33,15 +38,20 @@ def show(found: Gains, console: Console) -> None:
     if found.margin is not None:
         console.print(f"margin: feasible for all gains within {float(found.margin) * 100:.4g} % of these")
     if found.best is not None:
-        what, best = found.best
-        at = ", ".join(f"{name} = {_decimal(value)}" for name, value in best.gains.items())
-        console.print(f"largest {what} found: {_short(best.objective)} at {at} (certified there)")
+        console.print(_best(*found.best))
     if found.map is not None:
         count = Counter("".join(found.map.cells))
         cells = ", ".join(f"{count[letter]} {word}" for letter, word in LETTERS.items() if count[letter])
         console.print(f"map: {cells} of {found.map.states.size} cells")
     if found.assumes:
         console.print("the theorem also assumes: " + "; ".join(text for text, _ in found.assumes))
+
+
+def _best(what: str, best: Best) -> str:
+    if best.objective is None:
+        return f"largest {what}: no feasible gains were found"
+    at = ", ".join(f"{name} = {_decimal(value)}" for name, value in best.gains.items())
+    return f"largest {what} found: {_short(best.objective)} at {at} (certified there)"
 
 
 def _table(found: Gains) -> Table:
