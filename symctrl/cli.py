@@ -209,9 +209,9 @@ def gains(
     os.environ.update(OPENBLAS_NUM_THREADS="1", OMP_NUM_THREADS="1")
     from symctrl.gains import command
 
-    if json not in (None, "-"):
-        files.refuse_unwritable(Path(str(json)))
-    asked = command.Asked(study, graph, _values(setting or []), tuple(sweep or ()), maximize, fresh, plot)
+    _refuse_early(json)
+    values = _values(setting or [])
+    asked = command.Asked(study, graph, values, tuple(sweep or ()), maximize, fresh, plot, json)
     found = command.run(asked, _watch)
     if json != "-":
         command.show(found)

@@ -13,6 +13,7 @@ from symctrl.context import Instance, current
 from symctrl.entries import component_names
 from symctrl.expr import Expr, lift
 from symctrl.facts import Fact
+from symctrl.fleet import EIGENVALUE
 from symctrl.model import Model
 from symctrl.records import rate
 from symctrl.theorem import ArgumentEntry, CounterexampleEntry, Run
@@ -167,11 +168,20 @@ class Study(Model):
         declared = {name: v for s in self.symbols.values() for name, v in s.values.items()}
         return declared | dict(current().values)
 
+    def parameter_names(self) -> list[str]:
+        """The scalars of all parameters that belong to no node."""
+        return [
+            name
+            for base, symbol in self.symbols.items()
+            if symbol.kind == "parameter" and "." not in base and base != EIGENVALUE
+            for name in component_names(base, symbol.expr.shape, symbol.expr.args[2])
+        ]
+
     def _checked_value(self, key: str, text: str) -> Fraction:
         from difflib import get_close_matches
 
         base = key.partition("[")[0]
-        known = [n for n, s in self.symbols.items() if s.kind == "parameter" and "." not in n]
+        known = list(dict.fromkeys(name.partition("[")[0] for name in self.parameter_names()))
         if base not in known:
             near = get_close_matches(base, known, 3, 0.4) or known
             raise StudyError(f"{self.name} has no parameter {key}; it has {', '.join(near)}")

@@ -117,17 +117,19 @@ def gains(
 ) -> Gains:
     """The study's gains. maximize: "margin" or "decay". Raises StudyError, InputError."""
     began = time.perf_counter()
+    _refuse_axes(study, axes)
     theorem = standing_theorem(study, store, progress)
+    inputs = inputs_digest(study, set(study.statement_ids()))
     with within(study.instance):
-        found = conditions(study, theorem)
+        found = conditions(study, theorem, {*study.all_values(), *(axis.name for axis in axes)})
         asked = _Asked(study, found, tuple(axes), study.all_values())
-        _refuse_axes(study, found, axes)
+        _refuse_unread(study, found, axes)
         progress("eigenvalues of the graph")
         bracket = asked.bracket()
         cases = asked.cases(bracket)
         progress("conditions")
         answers = asked.answers(cases)
-        state, reason = asked.state(answers, cases)
+        state, reason = asked.state(answers)
         progress("map")
         cells = asked.map(cases) if axes else None
         progress("margin")
@@ -140,7 +142,7 @@ def gains(
     return Gains(
         study.name,
         study.graph,
-        digest([inputs_digest(study, set(study.statement_ids())), functions, written, maximize]),
+        digest([inputs, functions, written, maximize]),
         found.theorem,
         {name: value for name, value in asked.values.items() if name in read},
         state,
@@ -190,6 +192,10 @@ class _Asked:
     def is_covered(self) -> bool:
         return the_cases.covers(self.found, self.graph)
 
+    @cached_property
+    def at_point(self) -> Mapping[str, Fraction] | None:
+        return the_cases.admissible_constants(self.found, self.values)
+
     def bracket(self) -> Bracket | None:
         from symctrl.spectral.bracket import extreme_eigenvalue
 
@@ -203,7 +209,7 @@ class _Asked:
     def cases(self, bracket: Bracket | None) -> dict[str, Case]:
         spectrum = None if bracket is None else (bracket.low, bracket.high)
         of_graph = the_cases.of_graph(self.found, self.graph, spectrum)
-        return of_graph | the_cases.chosen(self.study, self.found, of_graph, self.values)
+        return of_graph | the_cases.chosen(self.study, self.found, of_graph, self.values, self.at_point)
 
     def answers(self, cases: Cases) -> tuple[point.Answer, ...]:
         made = [point.answer(self.study, one, self.values, cases) for one in self.found.each]
@@ -216,11 +222,11 @@ class _Asked:
             made.append(point.Answer(condition, holds, None, witness, ()))
         return tuple(made)
 
-    def state(self, answers: Sequence[point.Answer], cases: Cases) -> tuple[int, str]:
+    def state(self, answers: Sequence[point.Answer]) -> tuple[int, str]:
         """Of all that decides; and why it is open, if that is not for one of the conditions."""
         deciding = [a.state for a in answers if a.condition.of_theorem or self.found.theorem is None]
         state = min(deciding, default=OPEN)
-        if state == HOLDS and the_cases.admissible_constants(self.found, self.values) is None:
+        if state == HOLDS and self.at_point is None:
             return OPEN, "no state is known at which all that the theorem assumes holds with these gains"
         return state, ""
 
@@ -271,22 +277,35 @@ def _all_read(found: Conditions) -> set[str]:
     return {name for one in found.each for name in one.names}
 
 
-def _refuse_axes(study: Study, found: Conditions, axes: Sequence[Axis]) -> None:
-    from difflib import get_close_matches
-
+def _refuse_axes(study: Study, axes: Sequence[Axis]) -> None:
     if len(axes) > MOST_AXES:
         raise InputError(f"--sweep: a map has one or two gains, not {len(axes)}")
     if len({axis.name for axis in axes}) < len(axes):
         raise InputError(f"--sweep: {axes[0].name} is swept twice")
-    known = sorted(name for name in _all_read(found) if name in study.symbols)
+    known = study.parameter_names()
     for axis in axes:
         if axis.name not in known:
-            near = get_close_matches(axis.name, known, 3, 0.4) or known
+            near = _nearest(axis.name, known)
             raise InputError(
-                f"--sweep {axis.name}: no condition reads a gain of this name; there are {', '.join(near)}"
+                f"--sweep {axis.name}: {study.name} has no parameter of this name; it has {near}"
             )
     if axes:
         refuse_too_large(axes)
+
+
+def _refuse_unread(study: Study, found: Conditions, axes: Sequence[Axis]) -> None:
+    read = {name for one in found.each for name in one.names}
+    known = sorted(name for name in read if name in study.parameter_names())
+    for axis in axes:
+        if axis.name not in known:
+            near = _nearest(axis.name, known)
+            raise InputError(f"--sweep {axis.name}: no condition reads this gain; there are {near}")
+
+
+def _nearest(name: str, known: Sequence[str]) -> str:
+    from difflib import get_close_matches
+
+    return ", ".join(get_close_matches(name, known, 3, 0.4) or known) or "none"
 
 
 def _rate(study: Study, found: Conditions) -> Requirement:

@@ -100,9 +100,15 @@ def covers(found: Conditions, graph: nx.Graph | None) -> bool:
     return len(graph) > 1 and bool(nx.is_connected(graph))
 
 
-def chosen(study: Study, found: Conditions, cases: Cases, gains: Mapping[str, Fraction]) -> dict[str, Case]:
-    """A value for each gain that has none: those of an admissible point of the theorem at the other gains, if
-    they serve as many conditions as any that are tried.
+def chosen(
+    study: Study,
+    found: Conditions,
+    cases: Cases,
+    gains: Mapping[str, Fraction],
+    at_point: Mapping[str, Fraction] | None,
+) -> dict[str, Case]:
+    """A value for each gain that has none: those of an admissible point of the theorem, if they serve as many
+    conditions as any that are tried.
 
     Whether a condition fails is asked of all values that the gain may take.
     """
@@ -110,9 +116,8 @@ def chosen(study: Study, found: Conditions, cases: Cases, gains: Mapping[str, Fr
     open_ = [n for n in names if n not in cases and n not in gains and is_gain(study, n)]
     if not open_:
         return {}
-    at_point = admissible_constants(found, gains) or {}
     tried = _tried(len(open_))
-    if all(name in at_point for name in open_):
+    if at_point is not None and all(name in at_point for name in open_):
         tried.insert(0, tuple(at_point[name] for name in open_))
     requirements = [one for condition in found.deciding for one in condition.requirements]
     best = tried[int(np.argmax(_score(requirements, open_, tried, cases, gains)))]

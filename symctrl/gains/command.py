@@ -6,6 +6,7 @@ import uuid
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 from symctrl import files, registry
@@ -29,6 +30,7 @@ class Asked:
     maximize: str | None
     fresh: bool
     plot: Path | None
+    json: str | None = None
 
 
 def run(asked: Asked, watch: Callable[[str], AbstractContextManager[Callable[[str], None]]]) -> Gains:
@@ -37,7 +39,7 @@ def run(asked: Asked, watch: Callable[[str], AbstractContextManager[Callable[[st
     if asked.maximize is not None and asked.maximize not in OBJECTIVES:
         raise InputError(f"--maximize {asked.maximize}: what can be made largest is decay or margin")
     if asked.plot is not None:
-        _refuse_picture(asked.plot, bool(axes))
+        _refuse_picture(asked.plot, bool(axes), asked.json)
     study = Request(asked.study, asked.graph, asked.values).build()
     store = Store(folder(), run=uuid.uuid4().hex if asked.fresh else "")
     with watch(study.name) as progress, registry.locate(asked.study).blamed():
@@ -49,11 +51,15 @@ def run(asked: Asked, watch: Callable[[str], AbstractContextManager[Callable[[st
     return found
 
 
-def _refuse_picture(path: Path, has_map: bool) -> None:
+def _refuse_picture(path: Path, has_map: bool, json: str | None) -> None:
     if not has_map:
         raise InputError(f"--plot {path}: a picture needs a map; add --sweep NAME=LO:HI:COUNT")
     if path.suffix.lower() not in PICTURES:
         raise InputError(f"--plot {path}: the file must end in {', '.join(PICTURES)}")
+    if json is not None and Path(json).absolute() == path.absolute():
+        raise InputError(f"--plot {path}: is the file that --json writes")
+    if find_spec("matplotlib") is None:
+        raise InputError("--plot needs matplotlib: pip install 'symctrl[plot]'")
     files.refuse_unwritable(path)
 
 

@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from symctrl.bounds import Bound, Statement
+from symctrl.bounds import Bound, Statement, claimed
 from symctrl.collect import Collector
 from symctrl.context import within
 from symctrl.decide.claims import parts
 from symctrl.decide.place import is_fleet
 from symctrl.domains.boxes import Boxes
 from symctrl.domains.domain import Unsupported
-from symctrl.entries import component_names
 from symctrl.fleet import EIGENVALUE
 from symctrl.gains.definite import is_symmetric
 from symctrl.gains.requirement import DEGREE, Requirement, outputs, reached, read_names
@@ -75,10 +74,14 @@ class Conditions:
         return tuple(one for one in self.each if one.of_theorem or self.theorem is None)
 
 
-def conditions(study: Study, theorem: Entry | None) -> Conditions:
-    """The conditions of the standing theorem, then those that the study names. Raises StudyError."""
+def conditions(study: Study, theorem: Entry | None, fixed: Collection[str] = ()) -> Conditions:
+    """The conditions of the standing theorem, then those that the study names. Raises StudyError.
+
+    fixed: gains with a value or a range. Among them a bound of the Laplacian's eigenvalues is no choice, but
+    has to be one.
+    """
     with within(replace(study.instance, variant=variant_of(theorem))):
-        assumed = of_theorem(study, theorem) if theorem is not None else Hypotheses()
+        assumed = of_theorem(study, theorem, fixed) if theorem is not None else Hypotheses()
     with within(replace(study.instance, variant="corrected")):
         named = [_named(study, entry) for entry in study.conditions.values()]
         named += _assumed(study, named) if theorem is None else []
@@ -96,7 +99,7 @@ def variant_of(theorem: Entry | None) -> str:
     return "printed" if theorem is not None and theorem.form == "printed" else "corrected"
 
 
-def of_theorem(study: Study, entry: Entry) -> Hypotheses:
+def of_theorem(study: Study, entry: Entry, fixed: Collection[str] = ()) -> Hypotheses:
     """What a theorem assumes. Raises StudyError, and what calling the entry raises."""
     claim = entry.call(study)
     assert isinstance(claim, Theorem)
@@ -108,7 +111,10 @@ def of_theorem(study: Study, entry: Entry) -> Hypotheses:
     for written, about in dict.fromkeys([*_given(made.problem), *_given_of_used(study, entry)]):
         statement = statements.get(written)
         if isinstance(statement, LaplacianBound):
-            bounds.append(_symbol(statement))
+            if _symbol(statement) in fixed:
+                found.append(_bounding(study, f"{entry.id}/{len(found) + 1}", statement))
+            else:
+                bounds.append(_symbol(statement))
         elif statement is not None and _is_positive_gain(study, statement):
             positive.append(statement)
         elif statement is not None and about == "parameter" and _is_on_gains(study, statement):
@@ -133,6 +139,13 @@ def _given_of_used(study: Study, entry: Entry) -> Iterator[tuple[str, str]]:
         yield from _given_of_used(study, used)
 
 
+def _bounding(study: Study, id_: str, statement: LaplacianBound) -> Condition:
+    """That no eigenvalue exceeds the number, as a condition on any eigenvalue."""
+    assert study.of_fleet is not None
+    claim = claimed(study.of_fleet.eigenvalue <= statement.expr)
+    return _condition(study, id_, statement.text(), "the graph", True, [claim])
+
+
 def _all_positive(study: Study, id_: str, of_theorem: bool, listed: Sequence[Statement]) -> Condition:
     text = f"{', '.join(one.text().removesuffix(' > 0') for one in listed)} > 0"
     return _condition(study, id_, text, "all gains", of_theorem, listed)
@@ -152,8 +165,8 @@ def _assumed(study: Study, named: Sequence[Condition]) -> list[Condition]:
 
 
 def _named(study: Study, entry: Entry) -> Condition:
-    claimed = entry.call(study)
-    listed = claimed if isinstance(claimed, list | tuple) else [claimed]
+    made = entry.call(study)
+    listed = made if isinstance(made, list | tuple) else [made]
     for one in listed:
         if not isinstance(one, Bound | Definite | Equal | Nonzero):
             raise StudyError(
@@ -163,7 +176,7 @@ def _named(study: Study, entry: Entry) -> Condition:
     if not listed:
         raise StudyError(f"the condition {entry.id} is an empty list")
     for name in dict.fromkeys(n for one in listed for n in requirement(study, one, entry.id).names):
-        if name not in (EIGENVALUE, DEGREE) and not _is_parameter(study, name):
+        if name not in (EIGENVALUE, DEGREE) and name not in study.parameter_names():
             raise StudyError(
                 f"the condition {entry.id} speaks of {name}, which is no parameter: it must be one on gains"
             )
@@ -237,7 +250,7 @@ def _is_on_gains(study: Study, statement: Statement) -> bool:
     read = reached(made.problem)
     if any(name in names and names[name].is_ in ("total", "rate") for name in read):
         return False
-    if not all(_is_parameter(study, name) for name in scalars):
+    if not set(scalars) <= set(study.parameter_names()):
         return False
     return any(is_gain(study, n) for n in scalars) or all(study.value(n) is not None for n in scalars)
 
@@ -245,11 +258,3 @@ def _is_on_gains(study: Study, statement: Statement) -> bool:
 def is_gain(study: Study, name: str) -> bool:
     symbol = study.symbols.get(name)
     return symbol is not None and symbol.gain
-
-
-def _is_parameter(study: Study, name: str) -> bool:
-    return any(
-        name in component_names(base, symbol.expr.shape, symbol.expr.args[2])
-        for base, symbol in study.symbols.items()
-        if symbol.kind == "parameter" and ".*" not in base
-    )

@@ -7,6 +7,7 @@ contains its cells, and a cell that the boundary only touches is decided by frac
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -17,6 +18,7 @@ import numpy as np
 
 from symctrl.domains.boxes import Array, Box, Boxes, exact_array, rounded
 from symctrl.domains.domain import Unsupported
+from symctrl.expr import lift
 from symctrl.files import InputError
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
 from symctrl.gains.requirement import Cases, Requirement, known, state
@@ -71,7 +73,7 @@ def parsed(text: str) -> Axis:
     if not equals or not name.strip() or len(parts) != 3:
         raise InputError(f"--sweep {text}: must be like NAME=LO:HI:COUNT, as in K_o=1/2:3:100")
     lo, hi = (_number(text, part) for part in parts[:2])
-    if not parts[2].strip().isdecimal() or int(parts[2]) < 2:
+    if not re.fullmatch(r"\s*[0-9]{1,12}\s*", parts[2]) or int(parts[2]) < 2:
         raise InputError(f"--sweep {text}: COUNT is the number of cells, a whole number of at least 2")
     if lo >= hi:
         raise InputError(f"--sweep {text}: LO must be less than HI")
@@ -80,9 +82,10 @@ def parsed(text: str) -> Axis:
 
 def _number(text: str, part: str) -> Fraction:
     try:
-        return Fraction(part.strip())
-    except (ValueError, ZeroDivisionError):
+        value: Fraction = lift(part.strip()).args[0]
+    except ValueError:
         raise InputError(f"--sweep {text}: {part!r} is no exact number; write 0.4, 2/5 or 1e-3") from None
+    return value
 
 
 def refuse_too_large(axes: Sequence[Axis]) -> None:
