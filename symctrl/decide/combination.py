@@ -13,9 +13,11 @@ from itertools import chain
 from operator import mul
 from typing import Any
 
+from symctrl.decide.cases import by_cases
+from symctrl.decide.coefficients import coefficient_of
 from symctrl.decide.factors import Term, as_product, is_tied, opened, parts_of
 from symctrl.decide.forms import Form, form_of, without_forms
-from symctrl.decide.programme import by_programme, candidates
+from symctrl.decide.programme import by_programme, candidates, inside_logarithm
 from symctrl.decide.session import Session
 from symctrl.decide.squares import as_squares, completed, completed_with_multiplier
 from symctrl.decide.summed import terms_of_totals
@@ -59,7 +61,12 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
     found = _by_fact(session, value, strict)
     if found is None and not strict:
         found = _by_scaled_completion(session, value, known)
-    return _by_multipliers(session, value, strict, known) if found is None else found
+    found = _by_multipliers(session, value, strict, known) if found is None else found
+    return (
+        by_cases(session, value, lambda left: entry_of(session, left, strict, known))
+        if found is None
+        else found
+    )
 
 
 def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | None:
@@ -110,6 +117,8 @@ def _multipliers(session: Session) -> list[list[Poly]]:
     positive generators that lead them; and the squares of these. Each as its factors.
     """
     field, signs = session.domain.field, session.domain.signs
+    if session.cases:
+        return [[a] for a in _leading(session)][:MAX_MULTIPLIERS]
     zeros = [p for _, p in session.zeros] + [new.polynomial for new, _ in session.derived]
     leading: list[Poly] = []
     found: list[list[Poly]] = []
@@ -119,8 +128,22 @@ def _multipliers(session: Session) -> list[list[Poly]]:
             if e and signs.generator.get(k) == "positive":
                 leading += [field.variable(k)] * int(e)
         found.append([f for f, _ in p.factor()[1] if signs.of(f) == "positive"])
+    found += [[a] for k in range(len(field.generators)) for a in inside_logarithm(session, k)]
     distinct = [p for k, p in enumerate([leading, *found]) if p and p not in [leading, *found][:k]]
     return [power for p in distinct[:MAX_MULTIPLIERS] for power in (p, [*p, *p])]
+
+
+def _leading(session: Session) -> list[Poly]:
+    """Positive coefficients of symbols of unknown sign in what the cases suppose."""
+    field, signs = session.domain.field, session.domain.signs
+    found: list[Poly] = []
+    for b in map(field.normal, session.cases.values()):
+        for k in sorted(field.occurring(b)):
+            a = coefficient_of(field, b, {k: 1})
+            for p in (a, -a):
+                if not p.is_constant() and signs.of(p) == "positive" and p not in found:
+                    found.append(p)
+    return found
 
 
 # The terms

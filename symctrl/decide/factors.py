@@ -19,26 +19,32 @@ def as_product(session: Session, p: Poly, strict: bool) -> list[Term] | None:
     """p as one product of factors of known sign and squares; None where it is no such product."""
     field = session.domain.field
     c, exponents = session.domain.factor_polynomial(p)
-    if c <= 0:
-        return None
     known: list[Any] = []
     squares: list[Any] = []
     for k, e in sorted(exponents.items()):
-        certain = _certain(session, k, e, strict)
+        side = _side(session, k) if e % 2 else 1
+        f = field.factors[k] * side
+        c *= side
+        certain = _certain(session, f, k, e, strict)
         if certain is None:
             return None
-        f = field.factors[k]
         known += [field.json(f)] * certain
         if e > certain:
             squares.append(field.json(f ** (e // 2)))
-    return [[str(c), known, squares]]
+    return [[str(c), known, squares]] if c > 0 else None
 
 
-def _certain(session: Session, k: int, e: int, strict: bool) -> int | None:
-    """How often the factor is written by its sign, the rest of its power being a square; None where the sign
-    of the power is not known.
+def _side(session: Session, k: int) -> int:
+    """-1 where a factor is known never to be positive."""
+    f, of = session.domain.field.factors[k], session.domain.signs.of
+    return -1 if of(f) not in SIGNED and of(-f) in SIGNED else 1
+
+
+def _certain(session: Session, f: Poly, k: int, e: int, strict: bool) -> int | None:
+    """How often f, a factor or minus it, is written by its sign, the rest of its power being a square; None
+    where the sign of the power is not known.
     """
-    sign = session.domain.signs.of(session.domain.field.factors[k])
+    sign = session.domain.signs.of(f)
     if e % 2 and not (sign == "positive" or (sign == "nonnegative" and not strict)):
         return None
     not_zero = e % 2 or sign in ("positive", "nonzero") or k in session.domain.divided()

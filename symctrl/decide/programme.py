@@ -18,6 +18,7 @@ import numpy as np
 from symctrl.decide.factors import Term
 from symctrl.decide.forms import Form, forms_in
 from symctrl.decide.session import Session
+from symctrl.domains.beside import not_negative, pairs_of_one_sign
 from symctrl.domains.field import Poly
 
 MAX_CANDIDATES = 1500
@@ -193,7 +194,13 @@ def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
     for k, assumption in enumerate(session.problem.given):
         if assumption.kind in ("positive", "nonnegative"):
             yield k, session.carrier(session.at(assumption.of[0], {"i": "i"}))
+    for b in session.cases.values():
+        if not (supposed := field.normal(b)).is_constant():
+            yield field.json(supposed), supposed
+    yield from ((field.json(p), p) for p in _implied(session))
     for k, g in enumerate(field.generators):
+        if k in session.cases:
+            continue
         of_neighbour = g.kind == "free" and ".j" in g.name and known.get(k) in ("positive", "nonnegative")
         if of_neighbour or g.kind in ("root", "abs", "exp", "power"):
             yield field.json(field.variable(k)), field.variable(k)
@@ -201,15 +208,42 @@ def _facts(session: Session) -> Iterator[tuple[Any, Poly]]:
             yield field.json(beside), beside
 
 
+def _implied(session: Session) -> Iterator[Poly]:
+    """Factors of what is known not to be negative whose sign is known by it; c |b| - r for c^2 b^2 - r^2."""
+    field, signs = session.domain.field, session.domain.signs
+    sizes = [(field.variable(k), g.argument) for k, g in enumerate(field.generators) if g.kind == "abs"]
+    for fact, kind in signs.facts:
+        _, pairs = fact.factor() if kind != "nonzero" and len(fact) > 1 else (1, [])
+        factors = [f for f, e in pairs if e % 2]
+        if len(factors) < 2:
+            continue
+        found = [side * f for f in factors if len(f) > 1 for side in (1, -1)]
+        if len(factors) == 2:
+            f, g = factors
+            for m, b in sizes:
+                for side in (1, -1):
+                    c, rest = divmod(f + side * g, 2 * b)
+                    r = (f - side * g) / 2
+                    if rest.is_zero() and not c.is_zero():
+                        found += [u * c * m + v * r for u in (1, -1) for v in (1, -1)]
+        yield from (p for p in found if signs.of(p) in ("positive", "nonnegative"))
+
+
 def _beside(session: Session, k: int) -> list[Poly]:
-    """|p| - p and |p| + p for an absolute value, 1 - s and 1 + s for a sign: not negative."""
+    """What the definition of a generator shows not to be negative."""
     field = session.domain.field
-    g = field.generators[k]
-    if g.kind not in ("abs", "sign"):
-        return []
-    inner = g.argument if g.kind == "abs" else field.variable(k)
-    bound = field.variable(k) if g.kind == "abs" else field.polynomial(1)
-    return [bound - inner, bound + inner]
+    products = (u * v for u, v in pairs_of_one_sign(field, k))
+    found = [p for p, _ in not_negative(field, k)] + [
+        p for q in products if not (p := field.normal(q)).is_zero()
+    ]
+    return found + [a for a in inside_logarithm(session, k) if len(a) > 1]
+
+
+def inside_logarithm(session: Session, k: int) -> list[Poly]:
+    """The argument of a logarithm, where it is a positive polynomial."""
+    g = session.domain.field.generators[k]
+    inside = g.argument[0] if g.kind == "function" and g.name == "log" else {}
+    return [a for a in inside.values() if set(inside) == {()} and session.domain.signs.of(a) == "positive"]
 
 
 def _squares(session: Session, p: Poly, wide: bool) -> list[Poly]:

@@ -37,6 +37,7 @@ class Session:
     """The exact domain with the problem's assumptions in it. `totals` are the generators of sums over all
     nodes: name, derivatives, law.
 
+    `cases` are the arguments that are supposed not to be negative, by the generator of their absolute value.
     `zeros` are the numerators of the equations assumed at node i, `derived` what follows from them.
     """
 
@@ -46,6 +47,7 @@ class Session:
     totals: dict[int, tuple[str, int, str | None]] = field(default_factory=dict)
     zeros: list[tuple[Assumption, Poly]] = field(default_factory=list)
     derived: list[tuple[Derived, list[int]]] = field(default_factory=list)
+    cases: dict[int, Poly] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self.environment = Environment(self.problem, self.domain, self.free, self)

@@ -86,6 +86,14 @@ class Field:
         self._triangular = self._triangular and len(led) == 1 and led[0] not in self._led
         self._led.update(led)
 
+    def kept(self) -> tuple[list[Poly], set[int], bool]:
+        """The relations so far, for `restore`."""
+        return list(self.relations), set(self._led), self._triangular
+
+    def restore(self, kept: tuple[list[Poly], set[int], bool]) -> None:
+        """Forget the relations that have been added since."""
+        self.relations, self._led, self._triangular = kept
+
     def normal(self, p: Poly) -> Poly:
         """The normal form: no term is divisible by the leading monomial of a relation.
 

@@ -7,6 +7,12 @@ is nonnegative there; it is positive where in one term each g is positive and ea
 quotient has the sign of its numerator times the factors of odd exponent in its denominator, and that of
 its numerator alone where those factors are positive; all factors are nonzero on the domain.
 
+Theorem (`cases`): every real b has b >= 0 and |b| = b, or b <= 0 and |b| = -b. What holds in both cases
+holds. `{"by": k, "cases": [entry, entry]}` splits by the argument b of generator k, an absolute value: the
+first entry is shown where b >= 0, the second where b <= 0, each null where what is known excludes the case.
+In a case nothing is evaluated and no generator or factor is used for the first time, so that none is real or
+not zero because of the case alone.
+
 The terms add up to the quantity, or to it times positive POLYs (`times`).
 A term is `[c, [g, ..], [POLY, ..]]`. A g is the index of an assumption that a scalar is positive or
 nonnegative, and stands for the numerator of that scalar times its factors of odd exponent; or it is a
@@ -38,6 +44,9 @@ def needed_conditions(statement: Statement, proof: dict[str, Any]) -> set[Condit
 
 def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where: str) -> None:
     """Returns if the terms prove the value nonnegative, or positive if `strict`. Raises Invalid."""
+    if "cases" in typed(entry, dict, where):
+        _prove_cases(test, value, entry, strict, where)
+        return
     replay, ring = test.replay, test.replay.field.ring
     total: Poly = {}
     positive = False
@@ -55,6 +64,23 @@ def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where:
     sides: list[Value] = [{(): ring.add(form, ring.scale(total, -1))} for form in forms]
     if not any(_is_zero(test, side, where) for side in sides[:-1]):
         test.require_zero(sides[-1], where)
+
+
+def _prove_cases(test: SumIdentity, value: Value, entry: Any, strict: bool, where: str) -> None:
+    table = fields(entry, ("by", "cases"), where)
+    if test.sums.totals:
+        raise Invalid(f"{where}: a sum over all nodes is not shown by cases")
+    k = natural(table["by"], len(test.replay.table), where)
+    sides = zip((1, -1), several(table["cases"], 2, where), strict=True)
+    for side, inner in sides:
+        said = f"{where}, {'first' if side > 0 else 'second'} case"
+        with test.replay.supposing(k, side, said) as possible:
+            if possible and inner is None:
+                raise Invalid(f"{said}: it is not excluded by what is known")
+            if not possible and inner is not None:
+                raise Invalid(f"{said}: it never occurs")
+            if possible:
+                prove_sign(test, value, inner, strict, said)
 
 
 def _is_zero(test: SumIdentity, value: Value, where: str) -> bool:

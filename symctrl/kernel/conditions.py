@@ -4,7 +4,9 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Relies on: the sign of a sum of terms whose signs are known; the principal minors of a positive definite
 matrix are positive, those of a positive semidefinite one are not negative (Horn and Johnson, Matrix
-Analysis, 7.1; for a matrix that is not symmetric: Johnson, Positive definite matrices, 1970). What is not
+Analysis, 7.1; for a matrix that is not symmetric: Johnson, Positive definite matrices, 1970); what the
+definition of a generator says of polynomials beside it (`beside`); the sign of a factor by that of the whole,
+where the other factor is not zero and of known sign. What is not
 known so becomes a condition of the statement: nothing is ever assumed silently.
 
 A sign set is the set of the signs -1, 0, 1 that a number may have.
@@ -16,10 +18,11 @@ from fractions import Fraction
 from itertools import combinations
 from math import comb, gcd, lcm
 
+from symctrl.kernel import beside
 from symctrl.kernel.certificate import Invalid
 from symctrl.kernel.field import Field, Value
 from symctrl.kernel.generators import Generator, Printer
-from symctrl.kernel.polynomial import Number, Poly, monomial, powers, tidy
+from symctrl.kernel.polynomial import Number, Poly, monomial, powers, tidy, variables
 from symctrl.kernel.values import Condition
 
 SignSet = frozenset[int]
@@ -30,8 +33,11 @@ SIGNS: dict[str, SignSet] = {
     "positive": frozenset((1,)),
     "nonnegative": frozenset((0, 1)),
 }
+NEGATIVE: SignSet = frozenset((-1,))
 MAX_MINOR = 4  # rows
 MAX_MINORS = 1000  # of one size
+MAX_ASKED = 4
+MAX_CONJUGATE = 12  # terms of a polynomial that is multiplied by its conjugate
 ODD = ("tanh", "atan", "asin", "erf")
 
 
@@ -60,6 +66,7 @@ class Signs:
         self._known: dict[frozenset[tuple[int, Number]], tuple[Poly, SignSet]] = {}
         self._matrices: list[tuple[list[list[Value]], SignSet]] = []
         self._cache: dict[int, SignSet] = {}
+        self._asked: list[frozenset[int]] = []  # the monomials of what is being asked for, one for another
 
     def learn(self, kind: str, value: Value) -> None:
         """An assumption: the value has this kind of sign. Raises Invalid where that is never so."""
@@ -70,6 +77,33 @@ class Signs:
     def learn_matrix(self, matrix: list[list[Value]], strict: bool) -> None:
         """An assumption: the matrix (rows of values) is positive definite, or semidefinite."""
         self._matrices.append((matrix, SIGNS["positive" if strict else "nonnegative"]))
+
+    def suppose(self, kind: str, p: Poly) -> bool:
+        """Suppose a polynomial to have a sign, under relations that are new; False where it never has.
+
+        What was known is read again under the relations.
+        """
+        before = self.known
+        self._cache.clear()
+        try:
+            if not self.of(p) & SIGNS[kind]:
+                return False
+            self._learn(p, SIGNS[kind])
+            for unit, signs in before.values():
+                self._learn(unit, signs)
+        except Invalid:  # it contradicts what is known
+            return False
+        return True
+
+    @property
+    def known(self) -> dict[frozenset[tuple[int, Number]], tuple[Poly, SignSet]]:
+        """A copy of what is known of polynomials."""
+        return dict(self._known)
+
+    @known.setter
+    def known(self, value: dict[frozenset[tuple[int, Number]], tuple[Poly, SignSet]]) -> None:
+        self._known = dict(value)
+        self._cache.clear()
 
     def carrier(self, value: Value) -> Poly:
         """A polynomial with the sign of the value: numerator times the factors of odd exponent below it."""
@@ -103,24 +137,64 @@ class Signs:
             if key in self._known:
                 found &= product(self._known[key][1], flip)
             found &= self._terms(form)
-            found &= self._beside_known(form) & self._beside_size(form)
+            found &= self._beside_known(form)
+            if len(found) > 1:
+                found &= self._beside_definitions(form)
         return found
 
-    def _beside_size(self, p: Poly) -> SignSet:
-        """|p| - p, |p| + p, 1 - s and 1 + s for a sign s are not negative."""
-        key, flip, _ = _unit(p)
-        for k in {k for m in p for k, _ in powers(m)}:
+    def _beside_definitions(self, p: Poly) -> SignSet:
+        """By what the definitions of the generators in p say of polynomials beside them (`beside`)."""
+        found = ANY
+        asked = frozenset(p)
+        if asked in self._asked or len(self._asked) >= MAX_ASKED:
+            return ANY
+        self._asked.append(asked)
+        for k in sorted(variables(p)):
             g = self.table[k]
-            own: Poly = {monomial([(k, 1)]): 1}
-            if g.kind not in ("abs", "sign") or g.base is None:
-                continue
-            one: Poly = {0: 1}
-            size, inner = (own, g.base) if g.kind == "abs" else (one, own)
-            for sign in (1, -1):
-                beside = self.field.ring.add(size, self.field.ring.scale(inner, sign))
-                if beside and _unit(beside)[0] == key:
-                    return product(SIGNS["nonnegative"], product(flip, _unit(beside)[1]))
-        return ANY
+            for q, strict in beside.not_negative(self.field, k, g):
+                found &= self._as_multiple(p, q, SIGNS["positive" if strict else "nonnegative"])
+            for u, v in beside.pairs_of_one_sign(self.field, k, g):
+                product_ = self.field.ring.mul(u, v)
+                if self._divide(p, product_) is not None:
+                    never = 0 not in self.of(u) or 0 not in self.of(v)
+                    found &= self._as_multiple(p, product_, SIGNS["positive" if never else "nonnegative"])
+            found &= self._by_conjugate(p, k)
+        self._asked.pop()
+        return found
+
+    def _divide(self, p: Poly, q: Poly) -> tuple[Poly, bool] | None:
+        """(r, True) where p = q r, (r, False) where q = p r; None where neither divides."""
+        if not q or not p:
+            return None
+        r = self.field.ring.quotient(p, q)
+        if r is not None:
+            return r, True
+        r = self.field.ring.quotient(q, p)
+        return None if r is None else (r, False)
+
+    def _as_multiple(self, p: Poly, q: Poly, signs: SignSet) -> SignSet:
+        """The signs of p by those of q, where one is a multiple of the other."""
+        found = self._divide(p, q)
+        if found is None:
+            return ANY
+        r, multiple = found
+        of = self.of(r)
+        return product(signs, of) if multiple or 0 not in of else ANY
+
+    def _by_conjugate(self, p: Poly, k: int) -> SignSet:
+        """The sign of c n + r by that of its product with c n - r, for n = |b| or a square root."""
+        if len(p) > MAX_CONJUGATE:
+            return ANY
+        made = beside.conjugate(self.field, p, k, self.table[k])
+        if made is None:
+            return ANY
+        c, r, other, D = made
+        of = self.of(D)
+        least = SIGNS["nonnegative" if 0 in of else "positive"]
+        for side, large in ((of, c), (product(of, NEGATIVE), r)):
+            if side <= SIGNS["nonnegative"] and self._terms(large) <= SIGNS["nonnegative"]:
+                return least
+        return of if self._terms(other) == SIGNS["positive"] else ANY
 
     def _terms(self, p: Poly) -> SignSet:
         found: SignSet = frozenset((0,))
@@ -139,11 +213,19 @@ class Signs:
         found = ANY
         for unit, signs in self._known.values():
             ratio = p.get(max(unit), 0)
+            if len(unit) > 1 and unit.keys() != p.keys():
+                found &= self._as_divisor(p, unit, signs)
             if len(unit) > 1 and ratio:
                 rest = self.field.ring.add(p, self.field.ring.scale(unit, -ratio))
                 part = product(signs, frozenset((1 if ratio > 0 else -1,)))
                 found &= total(part, self._terms(rest))
         return found
+
+    def _as_divisor(self, p: Poly, known: Poly, signs: SignSet) -> SignSet:
+        """By a known multiple p r, where r is not zero."""
+        r = self.field.ring.quotient(known, p) if len(p) > 1 else None
+        of = ANY if r is None else self._terms(r)
+        return product(signs, of) if 0 not in of else ANY
 
     def of_generator(self, k: int) -> SignSet:
         """The signs that a generator may have."""
@@ -198,10 +280,11 @@ class Signs:
 
     def of_learned(self, p: Poly) -> SignSet:
         """The signs that p may have, also by the principal minors of the assumed matrices."""
-        self._learn_minors()
+        self.learn_minors()
         return self.of(p)
 
-    def _learn_minors(self) -> None:
+    def learn_minors(self) -> None:
+        """Take the signs of the principal minors of the assumed matrices."""
         matrices, self._matrices = self._matrices, []
         for matrix, signs in matrices:
             n = len(matrix)

@@ -12,7 +12,8 @@ there. Everything that the proof brings must be used.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
 
@@ -37,6 +38,7 @@ from symctrl.kernel.polynomial import Poly, Relation, monomial, relation, variab
 from symctrl.kernel.values import Assumption, Condition, Statement
 
 MAX_FACTOR_POWER = 1000
+MAX_CASES = 6  # inside each other
 _PLAIN = frozenset(("INPUT", "CONST", "ADD", "SUB", "MUL", "NEG", "SQ", "TWICE"))
 
 
@@ -67,6 +69,7 @@ class Replay(Domain[Value]):
         self._read: set[int] = set()
         self._learned: list[Relation] = []
         self._assuming = False
+        self._cases = 0
         self._add_relations()
 
     def _add_relations(self) -> None:
@@ -118,6 +121,31 @@ class Replay(Domain[Value]):
                 raise Invalid(f"{where} does not follow from the assumptions as it says")
             self._learned.append(relation(p))
         self._add_relations()
+
+    @contextmanager
+    def supposing(self, k: int, side: int, where: str) -> Iterator[bool]:
+        """What is shown inside is shown where the argument b of generator k = |b| has this sign or is zero.
+
+        False where that never is. Nothing is evaluated or used for the first time inside, and what is learned
+        is forgotten.
+        """
+        g = self.table[k]
+        if g.kind != "abs" or not g.base or k not in self._used or self._cases >= MAX_CASES:
+            raise Invalid(f"{where}: generator {k} is no absolute value by which cases are told apart")
+        self.signs.learn_minors()
+        kept = self._learned, self.signs.known
+        size: Poly = {monomial([(k, 1)]): 1}
+        b = self.field.ring.scale(g.base, side)
+        self._learned = [*kept[0], relation(self.field.ring.add(size, self.field.ring.scale(b, -1)))]
+        self._add_relations()
+        self._cases += 1
+        try:
+            yield self.signs.suppose("nonnegative", b)
+        finally:
+            self._cases -= 1
+            self._learned = kept[0]
+            self.signs.known = kept[1]
+            self._add_relations()
 
     def _is_plain(self, assumption: Assumption) -> bool:
         """Is it about polynomials, which are defined everywhere?"""
@@ -172,12 +200,15 @@ class Replay(Domain[Value]):
 
     def _establish(self, generators: Iterable[int], factors: Iterable[int] = ()) -> None:
         """These are used from now on: real, and not zero, by what is known or by a condition."""
-        for k in sorted(set(generators) - self._used):
+        new, below = set(generators) - self._used, set(factors) - self._used_factors
+        if self._cases and (new or below):
+            raise Invalid("a generator or factor is used for the first time in a case")
+        for k in sorted(new):
             g = self.table[k]
             self._used.add(k)
             self._establish(read_by(g, self.field), {f for value in g.args for key in value for f, _ in key})
             functions.require_defined(self.signs, g, f"generator {k}")
-        for f in sorted(set(factors) - self._used_factors):
+        for f in sorted(below - self._used_factors):
             p = self.field.factors[f]
             self._establish(variables(p))
             self.signs.require("nonzero", p, f"factor {f}")
@@ -233,6 +264,8 @@ class Replay(Domain[Value]):
         """The value that the first hint gives that the rule of the operation confirms."""
         memo = op, tuple(frozenset((key, frozenset(p.items())) for key, p in a.items()) for a in args)
         if memo not in self._results:
+            if self._cases:
+                raise Invalid("an operation is evaluated in a case")
             self._results[memo] = self._search(op, args)
         return self._results[memo]
 
