@@ -91,7 +91,7 @@ class _View:
             more,
             cut=step.verdict == "refuted",
             tainted=step.verdict == "undecided",
-            detail=step.statement.partition(": ")[2] if number != "0" else "",
+            detail=step.statement.partition("(")[2].removesuffix(")") if number != "0" else "",
         )
 
     def _used(self, row: Row, side: str) -> Iterator[Branch] | list[Branch]:
