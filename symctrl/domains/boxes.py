@@ -13,6 +13,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
+from math import inf, isinf, nextafter
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -148,11 +149,11 @@ def rounded(value: Fraction, towards: float) -> float:
     try:
         near = float(value)
     except OverflowError:
-        near = np.inf if value > 0 else -np.inf
-    if np.isinf(near):
-        return near if (near > 0) == (towards > 0) else float(np.nextafter(near, towards))
+        near = inf if value > 0 else -inf
+    if isinf(near):
+        return near if (near > 0) == (towards > 0) else nextafter(near, towards)
     beyond = Fraction(near) < value if towards > 0 else Fraction(near) > value
-    return float(np.nextafter(near, towards)) if beyond else near
+    return nextafter(near, towards) if beyond else near
 
 
 def exact_array(values: Sequence[Fraction]) -> Array:

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from symctrl.decide.definiteness import decide_matrix
-from symctrl.domains.boxes import Array, Box, Boxes, quiet
+from symctrl.domains.boxes import Array, Box, Boxes, quiet, rounded
 from symctrl.domains.domain import Unsupported
 
 HOLDS, OPEN, FAILS = 1, 0, -1
@@ -58,12 +58,15 @@ def smallest_eigenvalue(rows: Sequence[Sequence[tuple[Fraction, Fraction]]]) -> 
 
     A = C + R with |R| <= W entry by entry: the smallest eigenvalue of A is at least that of C less the
     largest row sum of W. That of C is bounded because C - s I is exactly semidefinite. A short s is tried
-    first: the eigenvalue may be one.
+    first: the eigenvalue may be one. Raises Unsupported for numbers that are too large for floating point.
     """
     middle = [[(low + high) / 2 for low, high in row] for row in rows]
     spread = max(sum(((high - low) / 2 for low, high in row), Fraction(0)) for row in rows)
-    near = float(np.linalg.eigvalsh(np.array([[float(x) for x in row] for row in middle]))[0])
-    short = Fraction(near).limit_denominator(1000)
+    try:
+        near = float(np.linalg.eigvalsh(np.array([[float(x) for x in row] for row in middle]))[0])
+        short = Fraction(near).limit_denominator(1000)
+    except (ValueError, OverflowError, np.linalg.LinAlgError):
+        raise Unsupported("the eigenvalues are too large") from None
     step = max(Fraction(abs(near)), Fraction(1)) / 2**40
     bound = short if abs(short - Fraction(near)) <= step else Fraction(round(near * 2**40), 2**40)
     while not _exceeds(middle, bound):
@@ -144,7 +147,10 @@ def _excluded(low: Array, high: Array, strict: bool) -> Array:
     middle = np.moveaxis((low + high) / 2, 2, 0)
     known = np.isfinite(middle).all(axis=(1, 2))
     middle[~known] = np.eye(n)
-    x = np.round(np.linalg.eigh(middle)[1][:, :, 0] * DIGITS)
+    try:
+        x = np.round(np.linalg.eigh(middle)[1][:, :, 0] * DIGITS)
+    except np.linalg.LinAlgError:
+        return np.zeros(len(middle), bool)
     total = floats.constant(Fraction(0))
     for r in range(n):
         for c in range(r, n):
@@ -157,4 +163,4 @@ def _excluded(low: Array, high: Array, strict: bool) -> Array:
 
 def _floats(ends: Array, towards: float) -> Array:
     """Fractions rounded to floating-point numbers on that side."""
-    return np.nextafter(ends.astype(float), towards) if ends.dtype == object else ends
+    return np.array([rounded(x, towards) for x in ends]) if ends.dtype == object else ends

@@ -146,7 +146,7 @@ def _margin(one: Requirement, gains: Mapping[str, Fraction], cases: Cases) -> Fr
         try:
             if one.kind in ("positive", "nonnegative"):
                 lows = [box.low[0] for box in tight(one, values, domain)]
-                return min(map(Fraction, lows)) if all(np.isfinite(float(x)) for x in lows) else None
+                return min(map(Fraction, lows)) if all(map(_is_finite, lows)) else None
             if one.kind.startswith("positive_"):
                 return _smallest(one, values, domain)
         except Unsupported:
@@ -157,11 +157,15 @@ def _margin(one: Requirement, gains: Mapping[str, Fraction], cases: Cases) -> Fr
 def _smallest(one: Requirement, values: Mapping[str, Box], domain: Boxes) -> Fraction | None:
     found = []
     for rows in _matrices(one, values, domain):
-        if not all(np.isfinite(float(x)) for row in rows for pair in row for x in pair):
+        if not all(_is_finite(x) for row in rows for pair in row for x in pair):
             return None
         exact = [[(Fraction(low), Fraction(high)) for low, high in row] for row in rows]
         found.append(smallest_eigenvalue(exact))
     return min(found)
+
+
+def _is_finite(end: Any) -> bool:
+    return isinstance(end, Fraction) or bool(np.isfinite(end))
 
 
 def _matrices(one: Requirement, values: Mapping[str, Box], domain: Boxes) -> list[list[list[Pair]]]:

@@ -138,7 +138,7 @@ def fastest(among: Among, rate: Rate) -> Best:
                 low = rate({n: domain.between(v, v) for n, v in at.items()}, domain).low[0]
             except Unsupported:
                 continue
-            return Fraction(low) if np.isfinite(float(low)) else None
+            return Fraction(low) if domain.exact or np.isfinite(low) else None
         return None
 
     return _best(among, speed, certified)
