@@ -24,6 +24,8 @@ def by_cases(session: Session, value: Exact, prove: Callable[[Exact], Entry | No
     """
     field = session.domain.field
     p = field.normal(session.carrier(value))
+    if p.is_zero():
+        return None
     sizes = _sizes(session, p)
     few = len(sizes) <= MAX_SIZES and len(field.occurring(p)) <= MAX_SYMBOLS
     if not sizes or not few or session.totals:

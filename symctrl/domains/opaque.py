@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
+from itertools import permutations
 from math import lcm
 from typing import Protocol
 
@@ -343,7 +344,19 @@ class Opaque:
             self.field.add_relation(g * m - wanted.argument)
             if self._sign(wanted.argument) in ("positive", "nonzero"):
                 self.field.add_relation(g * g - 1)
+        if wanted.kind in ("root", "power", "sign"):
+            self._add_switched(k)
         return k
+
+    def _add_switched(self, new: int) -> None:
+        """s² r = r for a switch s on x and a root r of |x|, or a power with a positive exponent: r(0) = 0."""
+        pairs = permutations(enumerate(self.field.generators), 2)
+        for (r, g), (s, h) in ((a, b) for a, b in pairs if new in (a[0], b[0]) and b[1].kind == "sign"):
+            plain = g.kind == "power" and set(g.exponent) == {()}
+            growing = plain and self.domain.signs.of(g.exponent[()]) == "positive"
+            if (g.kind == "root" or growing) and g.argument == self.field.variable(h.partner):
+                root, switch = self.field.variable(r), self.field.variable(s)
+                self.field.add_relation(switch * switch * root - root)
 
     def _abs_generator(self, f: Poly) -> int:
         return self.generator(Generator("abs", argument=f))

@@ -4,7 +4,8 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Relies on: each opaque generator is a real number by definition wherever its need holds, and its relations
 are theorems about that number (g^n = p and g >= 0 for a root; |p|^2 = p^2; sign(p) p = |p| and sign(p) |p|
-= p, also where p = 0; sin^2 + cos^2 = 1; sign(p)^2 = 1 where p != 0). A definition reads only earlier
+= p, also where p = 0; sin^2 + cos^2 = 1; sign(p)^2 = 1 where p != 0, so that sign(p)^2 r = r for a number r that is zero where p
+is, as a root or a power with a positive exponent of |p|). A definition reads only earlier
 generators, so the table is a chain of definitions.
 """
 
@@ -151,6 +152,20 @@ def relations_of(k: int, g: Generator, field: Field, nonzero: Callable[[Poly], b
             found.append((monomial([(k, 2)]), {0: 1}))
         return found
     return []
+
+
+def relations_of_switches(table: list[Generator], positive: Callable[[Value], bool]) -> list[Relation]:
+    """s^2 r = r for each switch s = sign(p), and r a root of |p| or |p|^e with an e that is positive: both
+    sides are zero where p is, whatever the value of the switch there, and elsewhere s^2 = 1.
+    """
+    found = []
+    for r, g in enumerate(table):
+        vanishing = g.kind == "root" or (g.kind == "power" and positive(g.args[0]))
+        for s, h in enumerate(table):
+            if vanishing and h.kind == "sign" and g.base == {monomial([(h.number, 1)]): 1}:
+                own: Poly = {monomial([(r, 1)]): -1}
+                found.append(relation({**own, monomial(sorted([(r, 1), (s, 2)])): 1}))
+    return found
 
 
 class Printer:

@@ -30,10 +30,10 @@ from symctrl.kernel.certificate import (
 )
 from symctrl.kernel.chain import Domain
 from symctrl.kernel.closure import Reach
-from symctrl.kernel.conditions import Signs
+from symctrl.kernel.conditions import SIGNS, Signs
 from symctrl.kernel.evaluation import Evaluation, Sums
 from symctrl.kernel.field import Field, Value, read_poly, read_powers
-from symctrl.kernel.generators import read_by, read_generators, relations_of
+from symctrl.kernel.generators import read_by, read_generators, relations_of, relations_of_switches
 from symctrl.kernel.polynomial import Poly, Relation, monomial, relation, variables
 from symctrl.kernel.values import Assumption, Condition, Statement
 
@@ -76,7 +76,8 @@ class Replay(Domain[Value]):
         """Those that were learned, and those of the generators by what is known now."""
         top = range(len(self.table) - 1, -1, -1)
         own = [r for k in top for r in relations_of(k, self.table[k], self.field, self._nonzero)]
-        self.field.relations = self._learned + own
+        switches = relations_of_switches(self.table, lambda e: self.signs.of_value(e) == SIGNS["positive"])
+        self.field.relations = self._learned + switches + own
 
     def _nonzero(self, p: Poly) -> bool:
         return self.is_factor(p) or 0 not in self.signs.of(p)
