@@ -95,6 +95,7 @@ class Collector(Listings):
         for used in using:
             if isinstance(used.claim, Equal):
                 made = self._replaced(made, used.claim)
+                refuse_circles(made, used.claim)
                 reach = Reach(made)
                 reach.listing("claim")
                 listing = f"using {_label(used.claim.left)}"
@@ -258,6 +259,23 @@ def refuse_other_loops(used: Equal, laws: Set[str | None]) -> None:
         taken = "without a law" if other == "None" else f"under the law {other}"
         raise StudyError(
             f"using: {used.text()} is a rate under the law {record.law}, and here a rate is taken {taken}"
+        )
+
+
+def refuse_circles(made: Problem, used: Equal) -> None:
+    """Raises StudyError where the right side of an equation reads what it takes the place of."""
+    listing = f"using {used.left.args[0] if used.left.op == 'symbol' else _label(used.left)}"
+    seen: set[str] = set()
+    waiting = [listing] if listing in made.listings else []
+    while waiting:
+        for scalar in made.listings[waiting.pop()].inputs:
+            meaning = made.names.get(star(scalar))
+            if meaning is not None and meaning.of is not None and meaning.of[0] not in seen:
+                seen.add(meaning.of[0])
+                waiting.append(meaning.of[0])
+    if listing in seen:
+        raise StudyError(
+            f"using: {used.text()} cannot be put in the place of its left side, for its right side reads that"
         )
 
 

@@ -163,7 +163,11 @@ def _reaches(problem: Problem, name: str, wanted: Collection[str]) -> bool:
 
 
 def _divides(problem: Problem, name: str) -> bool:
-    return any(step.op in ("DIV", "INV") for step in problem.listings[name].code)
+    """By something else than a number?"""
+    code = problem.listings[name].code
+    return any(
+        step.op in ("DIV", "INV") and not (step.op == "DIV" and code[step.args[1]].op == "CONST") for step in code
+    )
 
 
 def with_motion(problem: Problem, name: str, size: Sequence[str], listing: str) -> Problem:

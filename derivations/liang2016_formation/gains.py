@@ -1,25 +1,16 @@
-"""The gains: when Pi and V are definite, on which graphs, and what K_v must be."""
+"""The gains: when Pi and V are definite, and on which graphs."""
 
 from derivations.liang2016_formation.control import stiffness
-from derivations.liang2016_formation.model import q_cross
-from derivations.liang2016_formation.rate import d
 from derivations.liang2016_formation.symbols import (
-    J_0,
-    J,
     K_o,
     K_q,
     K_v,
-    alpha,
     beta,
     fleet,
-    q,
     study,
-    u_bar,
-    u_d,
 )
 from symctrl import (
     at_values,
-    equal,
     implies,
     nonnegative,
     positive_definite,
@@ -27,7 +18,7 @@ from symctrl import (
     sufficiently_small,
 )
 from symctrl.graphs import parse
-from symctrl.vectors import diagonal, eye, inverse, kron, skew, sqrt, stack, tanh
+from symctrl.vectors import diagonal, eye, kron, stack, tanh
 
 i = fleet.node
 
@@ -103,79 +94,6 @@ def Theta_is_definite(i):
 def V_is_nonnegative():
     """V is nonnegative."""
     return stiffness() - beta**2 * fleet.eigenvalue >= 0
-
-
-@study.claimed("before (7)")
-def row_of_Q_inverse():
-    """No row of the inverse of Q is longer than 1/2."""
-    rows = (q[i].scalar * eye(3) + q_cross(i)) / 2
-    return nonnegative(stack(*["1/4" - rows[k, :] @ rows[k, :].T for k in range(3)]))
-
-
-v = study.parameter("v", shape=(3, 1))  # any vector, then J_0 v is any torque
-a = study.parameter("a", shape=(3, 1))  # a row of the inverse of Q
-w = study.parameter("w", shape=(3, 1))  # the inverse of J times u_d
-bound = alpha * u_bar
-
-
-@study.claimed("before (7)")
-def acceleration_bound():
-    """|v| <= alpha |J v|: the inverse of J lengthens no torque by more than alpha."""
-    torque = J_0 @ v
-    return nonnegative(alpha**2 * torque.T @ torque - v.T @ v).by(
-        squares=[alpha * torque - v], forms=[(alpha * J_0 - eye(3), v)]
-    )
-
-
-@study.claimed("before (7)")
-def disturbance_norm(i):
-    """|u_d|^2 <= 3 u_bar^2."""
-    return nonnegative(3 * u_bar**2 - u_d[i].T @ u_d[i])
-
-
-@study.claimed("in (7)")
-def disturbance_in_d(i):
-    """d, the disturbance in the acceleration of q, is the inverse of Q times that of J times u_d."""
-    return equal(d(i), (q[i].scalar * eye(3) + q_cross(i)) / 2 @ inverse(J[i]) @ u_d[i])
-
-
-def assumed():
-    """What the three bounds say of a row a of the inverse of Q and of w, the inverse of J times u_d."""
-    return [1 - 4 * a.T @ a >= 0, 3 * bound**2 - w.T @ w >= 0]
-
-
-STEPS = [row_of_Q_inverse, acceleration_bound, disturbance_norm, disturbance_in_d]
-
-
-@study.printed(
-    "before (6)",
-    reading="component by component, with K_v = u_bar alpha_max of the inverse of J",
-    using=STEPS,
-)
-def K_v_is_enough():
-    """For any a with |a| <= 1/2 and w with |w| <= sqrt(3) u_bar alpha, K_v = u_bar alpha is at least a'w.
-
-    By the four steps the components of A^-1 Q'u_d are such a'w.
-    """
-    claim = nonnegative(bound - a.T @ w).by(times=6 * bound, squares=[3 * bound * a - w])
-    return implies(assumed(), claim)
-
-
-@study.claimed("before (6)", using=STEPS)
-def K_v_smallest():
-    """For the same a and w already K_v = (sqrt(3)/2) u_bar alpha is at least a'w."""
-    claim = nonnegative(sqrt(3) / 2 * bound - a.T @ w).by(
-        times=4 * sqrt(3) * bound, squares=[2 * sqrt(3) * bound * a - w]
-    )
-    return implies(assumed(), claim)
-
-
-@study.claimed("before (6)")
-def K_v_smallest_is_attained():
-    """At J = I/alpha one attitude and torque reach (sqrt(3)/2) u_bar alpha: no smaller constant will do."""
-    part = 1 / sqrt(3)
-    row = (part * eye(3) + skew(stack(0, part, -part)))[0, :] / 2
-    return equal(row @ (alpha * eye(3)) @ (u_bar * stack(1, 1, 1)), sqrt(3) / 2 * bound)
 
 
 tau_k = study.parameter("tau_k")  # one component of tau and of d

@@ -33,5 +33,4 @@ study.assume(nonzero(q[i].scalar), about="trajectory")
 # alpha_max(A), the largest eigenvalue: alpha is at least that of the inverse of J exactly if alpha J - I >=
 # 0.
 alpha = study.gain("alpha", unit="1/(kg*m^2)")
-J_0 = study.inertia("J_0")  # the inertia of one craft, where the paper leaves the index out
-study.assume(positive_semidefinite(alpha * J_0 - eye(3)))
+study.assume(positive_semidefinite(alpha * J[i] - eye(3)))

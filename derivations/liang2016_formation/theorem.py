@@ -14,6 +14,7 @@ from derivations.liang2016_formation.chart import (
 )
 from derivations.liang2016_formation.conclusion import V_2
 from derivations.liang2016_formation.control import V, e, s, tau
+from derivations.liang2016_formation.disturbance import d_bar, no_component_of_d_exceeds
 from derivations.liang2016_formation.model import Q, dq
 from derivations.liang2016_formation.rate import (
     closed_loop_corrected,
@@ -158,14 +159,14 @@ def of_switches():
 
 @study.corrected(
     theorem_1,
-    using=[closed_loop_corrected, omega_from_rate, rate_of_scalar_part],
+    using=[closed_loop_corrected, omega_from_rate, rate_of_scalar_part, no_component_of_d_exceeds],
     why="With the corrected B the loop is as designed; K_o is at least beta times the graph's largest "
     "eigenvalue, and the initial states are small, so that no scalar part reaches zero.",
 )
 def synchronisation():
-    """If beta lambda_max(L) <= K_o and no component of the disturbance, as it enters the acceleration of q,
-    exceeds K_v - delta, all attitudes become equal and all angular velocities zero, on every connected graph,
-    from all initial states with positive scalar parts and V + delta sum |q_i|_1 < delta.
+    """If beta lambda_max(L) <= K_o and K_v is at least (sqrt(3)/2) alpha u_bar + delta, all attitudes become
+    equal and all angular velocities zero, on every connected graph, from all initial states with positive
+    scalar parts and V + delta sum |q_i|_1 < delta.
     """
     return claim(
         given=[*gains(), *small_at_the_beginning(), initially(q[i].scalar > 0)],
@@ -174,7 +175,7 @@ def synchronisation():
             tends(q[i].vector - q[j].vector),
             tends(q[i].scalar - q[j].scalar),
         ],
-        free=[d],
+        free=[d, d_bar],
         trajectory=False,
     )
 

@@ -105,15 +105,24 @@ def remembered(
 
     What was undecided has nothing that could be checked, and nothing that anyone could gain by altering it.
     """
-    kept = store.get(problem.sha256) if store is not None else None
+    key = _key(problem)
+    kept = store.get(key) if store is not None else None
     if kept is not None:
         known = _read(kept)
         if known.outcome is Outcome.UNDECIDED or _holds_still(problem, known):
             return known
     verdict = decider(problem)
     if store is not None:
-        store.put(problem.sha256, _written(verdict))
+        store.put(key, _written(verdict))
     return verdict
+
+
+def _key(problem: Problem) -> str:
+    """The digest of what is decided and of the author's hint: another hint may lead to another verdict."""
+    advice = problem.advice
+    if advice is None:
+        return problem.sha256
+    return digest([problem.sha256, advice.tape.sha256, advice.times, advice.squares, list(advice.sizes)])
 
 
 def _part(

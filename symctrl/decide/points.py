@@ -22,6 +22,7 @@ from symctrl.reach import Reach
 TRIES_PER_POINT = 60
 TRIES_PER_CONSTANTS = 8
 DRAWS = 60  # of constants
+RESTS = 6  # beginnings of the search for a point at rest
 MOST_SHIFTS = 12
 
 
@@ -111,10 +112,11 @@ def _point(made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.R
         if wrong is None:
             return place
         failed = wrong
-    resting = _at_rest(made, edges, generator, height)
-    if resting is None:
+    resting = (_at_rest(made, edges, generator, height) for _ in range(RESTS))
+    found = next((place for place in resting if place is not None), None)
+    if found is None:
         raise NoPoint(f"no point was found at which all assumptions hold; the last to fail was {failed}")
-    return resting
+    return found
 
 
 def _at_rest(

@@ -6,7 +6,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any
 
-from symctrl.collect import Collector, Used, _sides, refuse_other_loops
+from symctrl.collect import Collector, Used, _sides, refuse_circles, refuse_other_loops
 from symctrl.entries import component_names
 from symctrl.expr import Expr, walk
 from symctrl.facts import SETS, Fact
@@ -208,6 +208,7 @@ class Loop:
         for used in self.using:
             if isinstance(used.claim, Equal):
                 made = c._replaced(made, used.claim)
+                refuse_circles(made, used.claim)
                 self._refuse_other_loops(used.claim, laws.keys())
         made = self._freed(made)
         names = {n: replace(m, law=self.law) if m.law in own else m for n, m in made.names.items()}

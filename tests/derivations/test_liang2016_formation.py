@@ -53,7 +53,9 @@ CONDITIONAL = {
     "A_is_invertible",
     "Q_is_invertible",
     "closed_loop_corrected",
-    "disturbance_in_d",
+    "d_in_w",
+    "d_is_bounded",
+    "K_v_is_enough",
 }
 
 
