@@ -58,7 +58,7 @@ def limit(study, law, using, what):
 @pytest.mark.parametrize("which", [0, 1])
 def test_in_a_theorem_about_another_loop_it_is_refused(which):
     study, x, s, laws, equations = two_laws()
-    with pytest.raises(StudyError, match="is a rate under the law damped, and here .* under the law driven"):
+    with pytest.raises(StudyError, match=r"is a rate under the law damped, and here .* under the law driven"):
         limit(study, laws["driven"], equations[which], (x, s())[which])
 
 
@@ -80,7 +80,7 @@ def test_beside_another_rate_it_is_refused(which, law, words):
         """Its square falls."""
         return equal(study.rate(square, laws[law]), -2 * square)
 
-    with pytest.raises(StudyError, match=f"is a rate under the law damped, and here .* {words}"):
+    with pytest.raises(StudyError, match=rf"is a rate under the law damped, and here .* {words}"):
         verify(study, ["of_square"])
 
 
