@@ -8,14 +8,17 @@ from typing import Any, Literal
 
 from symctrl.certify import canonical, certificate
 from symctrl.kernel.check import check_text
+from symctrl.sos import line
 from symctrl.sos.basis import half_newton, parities, split
+from symctrl.sos.constrained import programmes
 from symctrl.sos.deadline import Deadline, Late
 from symctrl.sos.problem import Problem
 from symctrl.sos.programme import Block, Programme, TooLarge
-from symctrl.sos.proof import Proof
+from symctrl.sos.proof import Proof, times_square
 from symctrl.sos.refute import Refuter
-from symctrl.sos.ring import monomial, terms
-from symctrl.sos.search import Found, search
+from symctrl.sos.ring import Poly, monomial, terms, to_fmpq, to_fraction, value_at
+from symctrl.sos.scaling import scaled
+from symctrl.sos.search import Found, Missed, search
 
 Verdict = Literal["proved", "refuted", "undecided"]
 
@@ -31,6 +34,8 @@ class Outcome:
     bound: Fraction | None = None
     tried: list[str] = field(default_factory=list)
     vacuous: bool = False
+    point: tuple[Fraction, ...] | None = None
+    proof: Proof | None = None
 
 
 class Decided(Exception):  # noqa: N818
@@ -49,53 +54,159 @@ class Decision:
         self.deadline = deadline
         self.tried: list[str] = []
         self.refuter = Refuter(problem, deadline)
+        self.point: tuple[Fraction, ...] | None = None
+        self.proof: Proof | None = None
 
     def run(self) -> Outcome:
         try:
             self._all()
         except Decided as done:
+            done.outcome.point, done.outcome.proof = self.point, self.proof
             return done.outcome
         except Late as late:
             self.tried.append(f"stopped by {late}")
         return Outcome("undecided", "neither a proof nor a witness was found", tried=self.tried)
 
     def _all(self) -> None:
+        problem = self.problem
+        self._trivial()
+        self._line()
         self.tried.append("points on a grid and on curves")
         self.refuted(self.refuter.quick())
-        self._squares()
+        if problem.everywhere and not problem.strict:
+            self._squares()
+            self._factors()
+        elif problem.everywhere:
+            self._strictly()
         self.tried.append("descents")
         self.refuted(self.refuter.thorough())
+        if not problem.everywhere:
+            self._constrained()
+
+    def _trivial(self) -> None:
+        p = self.problem.polynomial
+        if p == 0 and not self.problem.strict:
+            self.proved(Proof(()), "it is the zero polynomial")
+        value = to_fraction(p.leading_coefficient()) if p.is_constant() and p != 0 else Fraction(0)
+        if value > 0:
+            self.proved(Proof((), margin=value), "it is a positive number")
+
+    def _line(self) -> None:
+        """One variable, or a form in two: decided completely on the line, half-lines and intervals."""
+        problem = self.problem
+        k, form = line.variable_of(problem), line.form_of(problem)
+        if k is None and form is None:
+            return
+        self.tried.append("the sign between all real roots")
+        found = line.points(problem, k) if k is not None else line.form_points(problem, form or (0, 0))
+        for point in found:
+            self.refuted(point if self.refuter.contradicts(point) else None)
+        if k is not None:
+            proof = line.prove(problem, k, self.deadline)
+        else:
+            proof = line.prove_form(problem, form or (0, 0), self.deadline)
+        if proof is not None:
+            self.proved(
+                proof, "it is a sum of squares" + ("" if problem.everywhere else " with the constraints")
+            )
 
     def _squares(self) -> None:
-        problem = self.problem
-        if not problem.everywhere or problem.strict:
-            return
-        basis = half_newton(terms(problem.polynomial))
-        signs = parities([problem.polynomial])
-        one = problem.ring.constant(1)
-        blocks = tuple(
-            Block((), one, tuple(monomial(problem.ring, b) for b in part)) for part in split(basis, signs)
-        )
-        try:
-            found = search(Programme(problem.polynomial, blocks), self.deadline)
-        except TooLarge as error:
-            self.tried.append(f"a sum of squares, too large: {error}")
-            return
-        self.tried.append(f"a sum of squares over {len(basis)} monomials")
-        if isinstance(found, Found):
+        found = self._square_programme(self.problem.polynomial)
+        if found is not None:
             self.proved(Proof(found.parts), "it is a sum of squares")
+
+    def _square_programme(self, p: Poly) -> Found | None:
+        """p as a sum of squares over half its Newton polytope, in floats first."""
+        better = scaled(Problem(self.problem.names, p))
+        target = better.problem.polynomial
+        basis = half_newton(terms(target))
+        one = self.problem.ring.constant(1)
+        blocks = tuple(
+            Block((), one, tuple(monomial(self.problem.ring, b) for b in part))
+            for part in split(basis, parities([target]))
+        )
+        self.tried.append(f"a sum of squares over {len(basis)} monomials")
+        found = self._search(Programme(target, blocks))
+        if isinstance(found, Found):
+            return Found(better.back(Proof(found.parts)).parts)
+        return None
+
+    def _search(self, programme: Programme, zero: tuple[Poly, ...] = ()) -> Found | Missed | None:
+        try:
+            return search(programme, self.deadline, zero)
+        except TooLarge as error:
+            self.tried[-1] += f", too large ({error})"
+            return None
+
+    def _factors(self) -> None:
+        """p = q s^2: squares of factors need no proof."""
+        unit, factors = self.problem.polynomial.factor()
+        q, s = self.problem.ring.constant(unit), self.problem.ring.constant(1)
+        for f, e in factors:
+            q, s = (q * f if e % 2 else q), s * f ** (int(e) // 2)
+        if s.is_constant():
+            return
+        self.tried.append("factors")
+        inner = decide(Problem(self.problem.names, q), max(self.deadline.left / 2, 0.1))
+        if inner.verdict == "refuted" and inner.point is not None:
+            self.refuted(self._beside(inner.point))
+        elif inner.proof is not None:
+            self.proved(times_square(inner.proof, s), "it is a square times a sum of squares")
+
+    def _beside(self, point: tuple[Fraction, ...]) -> tuple[Fraction, ...] | None:
+        """A point near one where the square-free part is negative, at which the square is not zero."""
+        for k in range(4, 60):
+            near = tuple(x + Fraction(j + 1, 2**k) for j, x in enumerate(point))
+            for candidate in (point, near):
+                if self.refuter.contradicts(candidate):
+                    return candidate
+        return None
+
+    def _strictly(self) -> None:
+        """p - e as a sum of squares with some e > 0."""
+        p = self.problem.polynomial
+        size = max(abs(to_fraction(c)) for c in p.coeffs())
+        for k in (4, 10, 20, 30):
+            e = Fraction(2) ** (size.numerator.bit_length() - size.denominator.bit_length() - k)
+            found = self._square_programme(p - to_fmpq(e))
+            if found is not None:
+                self.proved(Proof(found.parts, margin=e), f"less {e}, it is a sum of squares")
+
+    def _constrained(self) -> None:
+        better = scaled(self.problem)
+        inner = better.problem
+        one = inner.ring.constant(1)
+        if self.refuter.admissible is None:
+            for words, programme in programmes(inner, -one, 1):
+                self.tried.append(f"emptiness of the set with {words}")
+                found = self._search(programme, inner.zero)
+                if isinstance(found, Found):
+                    proof = better.back(Proof(found.parts, found.multiples, margin=Fraction(1)))
+                    self._accept(
+                        "proved", proof.as_json(empty=True), "no point satisfies the constraints", None
+                    )
+        for words, programme in programmes(inner, inner.polynomial):
+            self.tried.append(f"squares times {words}")
+            found = self._search(programme, inner.zero)
+            if isinstance(found, Found):
+                proof = better.back(Proof(found.parts, found.multiples))
+                self.proved(proof, f"it is a sum of squares times {words}")
 
     def refuted(self, point: tuple[Fraction, ...] | None) -> None:
         """Ends with the witness, if there is one."""
         if point is None:
             return
+        self.point = point
         values = {name: str(x) for name, x in zip(self.problem.names, point, strict=True)}
-        self._accept(
-            "refuted", {"kind": "witness", "values": values}, "the polynomial is negative there", values
-        )
+        value = value_at(self.problem.polynomial, point)
+        sign = "zero" if value == 0 else "negative"
+        shown = f" ({value})" if value and len(str(value)) < 40 else ""
+        reason = f"the polynomial is {sign}{shown} at the witness"
+        self._accept("refuted", {"kind": "witness", "values": values}, reason, values)
 
     def proved(self, proof: Proof, reason: str) -> None:
         """Ends with the proof, if the kernel accepts it."""
+        self.proof = proof
         self._accept("proved", proof.as_json(), reason, None)
 
     def _accept(self, verdict: Verdict, proof: dict[str, Any], reason: str, values: Any) -> None:
@@ -104,7 +215,9 @@ class Decision:
         if answer.status != "valid":
             self.tried.append(f"a certificate that the kernel answers with {answer.status}: {answer.reason}")
             return
-        raise Decided(Outcome(verdict, reason, made, values, tried=self.tried))
+        vacuous = proof["kind"] == "empty"
+        bound = Fraction(0) if verdict == "proved" and not vacuous else None
+        raise Decided(Outcome(verdict, reason, made, values, bound, self.tried, vacuous))
 
 
 def decide(problem: Problem, seconds: float) -> Outcome:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import ceil, gcd, lcm, log2
 from typing import Any
@@ -69,6 +69,18 @@ def square(p: Poly, factor_: Fraction = Fraction(1), product: tuple[int, ...] = 
     d = denominator(p)
     value = factor_ / d**2
     return Part(product, (p * d,), [[value.numerator]], value.denominator, [[0]], 1)
+
+
+def times_square(proof: Proof, s: Poly) -> Proof:
+    """Of p, without constraints and with the multiplier 1: the proof of p s^2."""
+    d = denominator(s)
+    parts = [
+        replace(p, basis=tuple(b * (s * d) for b in p.basis), denominator=p.denominator * d**2)
+        for p in proof.parts
+    ]
+    if proof.margin:
+        parts.append(square(s, proof.margin))
+    return replace(proof, parts=tuple(parts), margin=Fraction(0))
 
 
 def part(

@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from symctrl.sos.deadline import Deadline
+from symctrl.sos.generic import Rounding
 from symctrl.sos.interior import iterates
 from symctrl.sos.programme import Programme, grams, sample
 from symctrl.sos.proof import Part
-from symctrl.sos.ring import Poly
+from symctrl.sos.ring import Poly, to_fmpq
 from symctrl.sos.rounding import monomial_parts
 
 # Relative to the margin, what may be left of the identity when rounding is tried.
@@ -67,4 +70,17 @@ def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, .
     if not programme.multiples and all(b is not None for b in bases):
         parts = monomial_parts(programme.target, [b for b in bases if b is not None], hs, over)
         return None if parts is None else Found(tuple(parts))
-    return None
+    gap = samples.target - sum(
+        w * ((q @ g) * q).sum(axis=1) for q, w, g in zip(samples.rows, samples.weights, found, strict=True)
+    )
+    floats: list[float] = []
+    if programme.multiples:
+        floats = np.linalg.lstsq(samples.multiples, gap, rcond=None)[0].tolist()
+    done = Rounding(programme, hs, floats).run()
+    if done is None:
+        return None
+    sums = [0 * programme.target for _ in zero]
+    for (j, by, _), c in zip(programme.multiples, done[1], strict=True):
+        if c:
+            sums[j] = sums[j] + by * to_fmpq(c)
+    return Found(tuple(done[0]), tuple(sums))
