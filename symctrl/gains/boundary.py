@@ -141,13 +141,21 @@ def _affine(p: Terms, names: Sequence[str], k: int) -> str | None:
         return None
     if len(slope) == 1 and () in slope:
         return _text({m: -c / slope[()] for m, c in rest.items()}, names)
-    over = _text({m: -c for m, c in rest.items()}, names)
-    return f"({over})/({_text(slope, names)})"
+    first = next(iter(slope.values()))
+    over, under = {m: -c / first for m, c in rest.items()}, {m: c / first for m, c in slope.items()}
+    return f"{_bracketed(over, names, '+ ')}/{_bracketed(under, names, '+ *')}"
+
+
+def _bracketed(p: Terms, names: Sequence[str], signs: str) -> str:
+    """In brackets where one of the signs is in it."""
+    text = _text(p, names)
+    return f"({text})" if any(sign in text for sign in signs.split()) or " - " in text else text
 
 
 def _text(p: Terms, names: Sequence[str]) -> str:
+    """What is added first, then what is taken away."""
     terms = []
-    for powers, c in p.items():
+    for powers, c in sorted(p.items(), key=lambda term: term[1] < 0):
         factors = [f"{names[g]}^{e}" if e > 1 else names[g] for g, e in powers]
         number = [str(abs(c))] if abs(c) != 1 or not factors else []
         terms.append(("- " if c < 0 else "+ ") + "*".join(number + factors))

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from symctrl import deciding
 from symctrl.bounds import Bound, Statement, claimed
 from symctrl.collect import Collector
 from symctrl.context import within
@@ -134,7 +135,8 @@ def _given(problem: Problem) -> list[tuple[str, str]]:
 def _given_of_used(study: Study, entry: Entry) -> Iterator[tuple[str, str]]:
     """What the statements assume that the theorem uses."""
     for used in entry.using:
-        for part in parts(study, used.call(study), used.id):
+        below = tuple(deciding.used(study, other) for other in used.using)
+        for part in parts(study, used.call(study), used.id, using=below):
             yield from _given(part.problem)
         yield from _given_of_used(study, used)
 

@@ -8,14 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 
 import numpy as np
 
 from symctrl.domains.boxes import Array, Box, Boxes
 from symctrl.domains.domain import Unsupported
-from symctrl.gains.definite import HOLDS
+from symctrl.gains.definite import FAILS, HOLDS, OPEN
 from symctrl.gains.maps import together
-from symctrl.gains.requirement import Cases, Requirement, state
+from symctrl.gains.requirement import Cases, Requirement, known, state
 
 CANDIDATES = 512
 ROUNDS = 9
@@ -24,6 +25,8 @@ STEPS = 16  # of bisection
 FINEST = 10_000  # a margin is a multiple of one part in this many
 GOOD = 0.99  # of the best objective is what rounded gains must reach
 MOST_DIGITS = 6
+MOST_CORNERS = 64
+MOST_CUTS, MOST_PARTS = 24, 4096
 
 Gains = Mapping[str, Fraction]
 Ranges = Mapping[str, tuple[Fraction, Fraction]]
@@ -70,20 +73,44 @@ def margin(
 def _all_hold(
     requirements: Sequence[Requirement], gains: Gains, varied: Sequence[str], cases: Cases, r: Fraction
 ) -> bool:
-    """Exactly, or where that is not to be had, rounded outward."""
+    """Exactly in one box, or else, rounded outward, in each of the parts into which that is cut."""
+    ends = {name: (value, value) for name, value in gains.items()}
+    for name in varied:
+        low, high = sorted((gains[name] * (1 - r), gains[name] * (1 + r)))
+        ends[name] = low, high
+    return all(_holds_within(one, ends, cases) for one in requirements)
 
-    def holds(one: Requirement) -> bool:
-        for domain in (Boxes(exact=True), Boxes()):
-            boxes = {name: domain.between(value, value) for name, value in gains.items()}
-            ends = {name: sorted((gains[name] * (1 - r), gains[name] * (1 + r))) for name in varied}
-            boxes |= {name: domain.between(low, high) for name, (low, high) in ends.items()}
-            try:
-                return bool((state(one, boxes, cases, domain) == HOLDS).all())
-            except Unsupported:
-                continue
-        return False
 
-    return all(map(holds, requirements))
+def _holds_within(one: Requirement, ends: Ranges, cases: Cases) -> bool:
+    exact, floats = Boxes(exact=True), Boxes()
+    try:
+        found = state(one, {n: exact.between(*pair) for n, pair in ends.items()}, cases, exact)
+        if found[0] != OPEN:
+            return bool(found[0] == HOLDS)
+    except Unsupported:
+        pass
+    boxes = {name: floats.between(*pair) for name, pair in ends.items()}
+    wide = [name for name in one.names if name in ends and ends[name][0] < ends[name][1]]
+    for k in range(MOST_CUTS):
+        found = known(one, boxes, cases, floats)
+        open_ = np.flatnonzero(found == OPEN)
+        if (found == FAILS).any() or not open_.size:
+            return not open_.size and bool((found == HOLDS).all())
+        if not wide or open_.size > MOST_PARTS:
+            return False
+        taken = open_ if found.size == boxes[wide[0]].low.size else np.arange(boxes[wide[0]].low.size)
+        boxes |= {n: Box(boxes[n].low[taken], boxes[n].high[taken]) for n in wide}
+        boxes |= _halved({n: boxes[n] for n in wide}, wide[k % len(wide)])
+    return False
+
+
+def _halved(boxes: Mapping[str, Box], name: str) -> dict[str, Box]:
+    """Each box as two, cut across one gain."""
+    made = {n: Box(np.tile(box.low, 2), np.tile(box.high, 2)) for n, box in boxes.items()}
+    low, high = boxes[name].low, boxes[name].high
+    middle = low / 2 + high / 2
+    made[name] = Box(np.concatenate([low, middle]), np.concatenate([middle, high]))
+    return made
 
 
 def largest_margin(among: Among, varied: Sequence[str]) -> Best:
@@ -99,16 +126,21 @@ def largest_margin(among: Among, varied: Sequence[str]) -> Best:
 
 
 def _radii(among: Among, at: Mapping[str, Array], varied: Sequence[str]) -> Array:
-    """The margin of each candidate in floating point; -1 where it is not feasible."""
+    """The margin of each candidate as the corners of its box show it, in floating point; -1 where it is not
+    feasible.
+    """
     domain, count = Boxes(), len(next(iter(at.values())))
-    centre: dict[str, Array] = {
-        name: np.array([float(among.values[name])]) for name in varied if name not in at
-    }
-    centre |= at
+    signs = _signs(len(varied))
 
     def good(r: Array) -> Array:
-        boxes = {name: Box(x * (1 - r), x * (1 + r)) for name, x in centre.items()}
-        return together(among.requirements, among.boxes(boxes, domain), among.cases, domain, count) == HOLDS
+        boxes = {}
+        for name, sign in zip(varied, signs.T, strict=True):
+            centre = at[name] if name in at else np.full(count, float(among.values[name]))
+            ends = (centre[:, None] * (1 + r[:, None] * sign)).ravel()
+            boxes[name] = Box(ends, ends)
+        size = count * len(signs)
+        found = together(among.requirements, among.boxes(boxes, domain), among.cases, domain, size)
+        return np.asarray((found == HOLDS).reshape(count, -1).all(axis=1))
 
     low, high = np.zeros(count), np.ones(count)
     for _ in range(STEPS):
@@ -116,6 +148,13 @@ def _radii(among: Among, at: Mapping[str, Array], varied: Sequence[str]) -> Arra
         found = good(r)
         low, high = np.where(found, r, low), np.where(found, high, r)
     return np.where(good(low), low, -1.0)
+
+
+def _signs(count: int) -> Array:
+    """The corners of a box, or some of them where there are many."""
+    if 2**count <= MOST_CORNERS:
+        return np.array(list(product((-1.0, 1.0), repeat=count)))
+    return np.random.default_rng(1).choice((-1.0, 1.0), (MOST_CORNERS, count))
 
 
 def fastest(among: Among, rate: Rate) -> Best:
