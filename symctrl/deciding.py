@@ -55,7 +55,7 @@ def decide(study: Study, entry: Entry, reading: str | None, store: Store | None,
             claim = entry.call(study, reading)
             if is_named(study, entry.corrects or entry.id):
                 claim = Conforms(_body(study, entry, claim))
-            using = tuple(_used(study, other) for other in entry.using)
+            using = tuple(used(study, other) for other in entry.using)
             if isinstance(claim, Theorem):
                 return _theorem(study, entry, claim, using, bool(marks), store)
             found = tuple(parts(study, claim, entry.id, using=using))
@@ -90,10 +90,10 @@ def _theorem(
     )
 
 
-def _used(study: Study, entry: Entry) -> Used:
+def used(study: Study, entry: Entry) -> Used:
     """A statement that another one uses, with its digest."""
     claim = entry.call(study)
-    using = tuple(_used(study, other) for other in entry.using)
+    using = tuple(used(study, other) for other in entry.using)
     return Used(entry.id, claim, digest_of(parts(study, claim, entry.id, using=using)))
 
 

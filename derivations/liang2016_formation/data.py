@@ -2,12 +2,12 @@
 
 from fractions import Fraction
 
-from derivations.liang2016_formation.symbols import fleet, study
-from symctrl import nonnegative, positive, positive_definite
+from derivations.liang2016_formation.symbols import alpha, fleet, study, u_bar
+from symctrl import at_values, nonnegative, positive, positive_definite
 from symctrl.expr import lift
 from symctrl.spectral.matrix import largest_eigenvalue
 from symctrl.statements import positive_semidefinite
-from symctrl.vectors import eye, skew, stack
+from symctrl.vectors import diagonal, eye, skew, stack
 
 i = fleet.node
 
@@ -89,6 +89,18 @@ def gravity_gradient_bound():
 def K_v_at_the_data():
     """K_v = 0.01 exceeds u_bar alpha_max of the inverse of J for each craft, with the text's disturbance."""
     return [positive(Fraction("0.01") - _disturbance(rows) * _inverse_bound(rows)) for rows in INERTIAS]
+
+
+@study.claimed("section 3")
+def alpha_at_the_data():
+    """alpha is at least the largest eigenvalue of the inverse of each inertia."""
+    return at_values(positive_semidefinite(diagonal(*(alpha * lift(rows) - eye(3) for rows in INERTIAS))))
+
+
+@study.claimed("section 3")
+def u_bar_at_the_data():
+    """u_bar is at least the text's disturbance for each craft."""
+    return [at_values(nonnegative(u_bar - _disturbance(rows))) for rows in INERTIAS]
 
 
 def _trace(rows):

@@ -19,7 +19,7 @@ omega = fleet.state("omega", 3, unit="rad/s")  # of the body relative to the ine
 J = fleet.inertia("J")
 u = fleet.input("u", 3, unit="N*m")
 
-u_bar = study.gain("u_bar", unit="N*m", tex=r"\bar{u}_d")
+u_bar = study.gain("u_bar", "0.003", unit="N*m", tex=r"\bar{u}_d")  # of section 3: see data.py
 u_d = fleet.disturbance("u_d", 3, unit="N*m", bound=u_bar)
 
 K_o = study.gain("K_o", "1.6")
@@ -32,5 +32,5 @@ study.assume(nonzero(q[i].scalar), about="trajectory")
 
 # alpha_max(A), the largest eigenvalue: alpha is at least that of the inverse of J exactly if alpha J - I >=
 # 0.
-alpha = study.gain("alpha", unit="1/(kg*m^2)")
+alpha = study.gain("alpha", "0.021", unit="1/(kg*m^2)")  # of section 3: see data.py
 study.assume(positive_semidefinite(alpha * J[i] - eye(3)))

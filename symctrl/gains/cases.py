@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 ZERO = Fraction(0)
 MOST_DEGREES = 64  # that are looked at one by one; of more, the least and the greatest
 CHOICES = tuple(
-    Fraction(n, d) for n, d in ((1, 1), (1, 2), (2, 1), (1, 4), (4, 1), (1, 10), (10, 1), (1, 100))
+    Fraction(n, d) for n, d in ((1, 1), (1, 2), (2, 1), (1, 4), (4, 1), (1, 10), (10, 1), (1, 100), (1, 1000))
 )
 TRIES = 2048
 
