@@ -1,7 +1,7 @@
 """Admissible rational points of a problem: all assumptions hold there exactly.
 
-Equations are met by construction (symctrl.decide.solve); symmetric definite matrices are L Lᵀ + I;
-inequalities by trying, with smaller and smaller values."""
+Equations are met by construction (symctrl.decide.solve); symmetric definite matrices are L Lᵀ + I, or a
+multiple of it; inequalities by trying, with smaller and smaller values."""
 
 from __future__ import annotations
 
@@ -170,6 +170,7 @@ def _draw(
         else _number(made, star(name) if edges else name, generator, height, attempt)
         for name in free_names(made.problem, at)
     }
+    scale = Fraction(2) ** (generator.choice((0, attempt // 4 % MOST_SHIFTS)) if made.definite else 0)
     for node in at or ("",):
 
         def local(name: str, node: str = node) -> str:
@@ -177,7 +178,7 @@ def _draw(
 
         for names, size in made.definite:
             for name, entry in zip(names, _definite(size, generator, height), strict=True):
-                values[local(name)] = entry
+                values[local(name)] = scale * entry
         for step in reversed(generator.choice(made.ways)):
             if isinstance(step, Sphere):
                 drawn = _on_sphere(len(step.names), generator, height)
