@@ -4,9 +4,9 @@ Soundness-critical. Last reviewed 2026-11-24.
 
 Relies on: each opaque generator is a real number by definition wherever its need holds, and its relations
 are theorems about that number (g^n = p and g >= 0 for a root; |p|^2 = p^2; sign(p) p = |p| and sign(p) |p|
-= p, also where p = 0; sin^2 + cos^2 = 1; sign(p)^2 = 1 where p != 0, so that sign(p)^2 r = r for a number r that is zero where p
-is, as a root or a power with a positive exponent of |p|). A definition reads only earlier
-generators, so the table is a chain of definitions.
+= p, also where p = 0; sin^2 + cos^2 = 1; sign(p)^2 = 1 where p != 0, so that sign(p)^2 r = r for a number r
+that is zero where p is, as a root or a power with a positive exponent of |p|). A definition reads only
+earlier generators, so the table is a chain of definitions.
 """
 
 from __future__ import annotations

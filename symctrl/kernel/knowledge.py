@@ -124,6 +124,10 @@ class Knowledge:
     def state_is_bounded(self, state: str) -> bool:
         return self.free_is_bounded(at_node(state, "i"))
 
+    def state_key(self, state: str) -> str:
+        _, domain = self._reading()
+        return domain.free(at_node(state, "i")).key
+
     def free_is_bounded(self, name: str) -> bool:
         _, domain = self._reading()
         return domain.free(name).bounded

@@ -14,6 +14,7 @@ from symctrl.rules.boundedness import bounded_reads, bounded_states
 from symctrl.rules.chain import Chain
 from symctrl.rules.constants import factors, products, squares_in
 from symctrl.rules.edges import define, edges
+from symctrl.rules.growth import growths
 from symctrl.rules.quantities import claimed, speaks_of_all, total_of
 from symctrl.rules.ways import ensure, ensure_all, exponentially_by
 from symctrl.text import text
@@ -162,4 +163,5 @@ def existence(chain: Chain) -> bool:
     if ("exists", "") in chain.at.facts:
         return True
     bounded_states(chain)
-    return chain.attempt("exists", {"edges": edges(chain, list(chain.at.edges()))})
+    table = {"edges": edges(chain, list(chain.at.edges()))}
+    return any(chain.attempt("exists", table | more) for more in ({}, *growths(chain)))

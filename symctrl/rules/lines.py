@@ -75,8 +75,7 @@ def part(chain: Chain, what: What) -> bool:
 
 
 def exists(chain: Chain, what: What) -> bool:
-    carries.bounded_states(chain)
-    return chain.run("exists", {"edges": edges(chain, list(chain.at.edges()))})
+    return carries.existence(chain) or chain.run("exists", {"edges": edges(chain, list(chain.at.edges()))})
 
 
 def lyapunov(chain: Chain, what: What) -> bool:
