@@ -27,12 +27,11 @@ def programmes(problem: Problem, target: Poly, more: int = 2) -> Iterator[tuple[
     leads = leading(problem.zero)
     pairs = list(combinations(range(len(problem.nonnegative)), 2))
     for half in range(least, least + more + 1):
-        for products in ([], pairs[:MAX_PRODUCTS]):
-            if products == [] or pairs:
-                made = _programme(problem, target, half, products, leads)
-                if made is not None:
-                    words = f"constraints {'and their products ' if products else ''}to degree {2 * half}"
-                    yield words, made
+        for products in ([], pairs[:MAX_PRODUCTS]) if pairs else ([],):
+            made = _programme(problem, target, half, products, leads)
+            if made is not None:
+                words = f"constraints {'and their products ' if products else ''}to degree {2 * half}"
+                yield words, made
 
 
 def _programme(

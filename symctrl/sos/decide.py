@@ -17,8 +17,8 @@ from symctrl.sos.programme import Block, Programme, TooLarge
 from symctrl.sos.proof import Proof, times_square
 from symctrl.sos.refute import Refuter
 from symctrl.sos.ring import Poly, monomial, terms, to_fmpq, to_fraction, value_at
-from symctrl.sos.scaling import scaled
-from symctrl.sos.search import Found, Missed, search
+from symctrl.sos.scaling import Scaled, scaled
+from symctrl.sos.search import Found, Missed, on_boundary, search
 
 Verdict = Literal["proved", "refuted", "undecided"]
 
@@ -54,6 +54,7 @@ class Decision:
         self.deadline = deadline
         self.tried: list[str] = []
         self.refuter = Refuter(problem, deadline)
+        self.later: list[tuple[Programme, Scaled, str]] = []
         self.point: tuple[Fraction, ...] | None = None
         self.proof: Proof | None = None
 
@@ -82,6 +83,7 @@ class Decision:
         self.refuted(self.refuter.thorough())
         if not problem.everywhere:
             self._constrained()
+        self._boundary()
 
     def _trivial(self) -> None:
         p = self.problem.polynomial
@@ -126,10 +128,26 @@ class Decision:
             for part in split(basis, parities([target]))
         )
         self.tried.append(f"a sum of squares over {len(basis)} monomials")
-        found = self._search(Programme(target, blocks))
+        programme = Programme(target, blocks)
+        found = self._search(programme)
         if isinstance(found, Found):
             return Found(better.back(Proof(found.parts)).parts)
+        if isinstance(found, Missed) and found.near and p == self.problem.polynomial:
+            self.later.append((programme, better, "a sum of squares"))
         return None
+
+    def _boundary(self) -> None:
+        """The programmes that had no margin, again with many digits, the small ones first."""
+        for programme, better, words in sorted(self.later, key=lambda entry: len(entry[0].support)):
+            self.tried.append(f"{words}, on the boundary")
+            try:
+                found = on_boundary(programme, self.deadline, better.problem.zero)
+            except TooLarge as error:
+                self.tried[-1] += f", too large ({error})"
+                continue
+            if isinstance(found, Found):
+                proof = better.back(Proof(found.parts, found.multiples))
+                self.proved(proof, f"it is {words}")
 
     def _search(self, programme: Programme, zero: tuple[Poly, ...] = ()) -> Found | Missed | None:
         try:
@@ -191,6 +209,8 @@ class Decision:
             if isinstance(found, Found):
                 proof = better.back(Proof(found.parts, found.multiples))
                 self.proved(proof, f"it is a sum of squares times {words}")
+            if isinstance(found, Missed) and found.near:
+                self.later.append((programme, better, f"a sum of squares times {words}"))
 
     def refuted(self, point: tuple[Fraction, ...] | None) -> None:
         """Ends with the witness, if there is one."""

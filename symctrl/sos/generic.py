@@ -193,7 +193,7 @@ def _fit(products: Sequence[Poly], left: Poly) -> list[Fraction] | None:
 
 
 def solve(rows: Sequence[Sequence[Fraction]], right: Sequence[Fraction]) -> list[Fraction] | None:
-    """A solution with few entries that are not zero, pivots being found modulo a prime; None if there is none."""
+    """A solution with few entries that are not zero; pivots are found modulo a prime. None: no solution."""
     if not any(right):
         return [Fraction(0)] * len(rows[0])
     if not rows[0]:

@@ -8,8 +8,10 @@ from typing import Any
 import numpy as np
 
 from symctrl.sos.deadline import Deadline
+from symctrl.sos.face import reduced
 from symctrl.sos.generic import Rounding
 from symctrl.sos.interior import iterates
+from symctrl.sos.precise import solve
 from symctrl.sos.programme import Programme, grams, sample
 from symctrl.sos.proof import Part
 from symctrl.sos.ring import Poly, to_fmpq
@@ -18,6 +20,9 @@ from symctrl.sos.rounding import monomial_parts
 # Relative to the margin, what may be left of the identity when rounding is tried.
 _RESIDUAL = 0.05
 _CLEAR = 1e-9
+_ZERO = 1e-12
+_NEAR = 1e-4
+_FACES = 5
 
 
 @dataclass(frozen=True)
@@ -33,8 +38,14 @@ class Missed:
     """No identity. lam: the best margin in floats, None where there is none; bound: of the dual."""
 
     lam: float | None
+    scale: float = 1.0
     moments: Any = None
     points: Any = None
+
+    @property
+    def near(self) -> bool:
+        """May the best margin be zero or positive, as far as floats can tell?"""
+        return self.lam is not None and self.lam > -_NEAR * self.scale
 
 
 def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()) -> Found | Missed:
@@ -60,7 +71,31 @@ def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()
             break
     if last is None:
         return Missed(None)
-    return Missed(last.lam, last.moments, samples.points)
+    size = float(np.abs(samples.target).max()) or 1.0
+    return Missed(max(last.lam, -abs(last.bound)), size, last.moments, samples.points)
+
+
+def on_boundary(
+    programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = (), bits: int = 320
+) -> Found | Missed:
+    """The same where the best margin is zero: face by face, each found with numbers of many bits."""
+    current = programme
+    for _ in range(_FACES):
+        deadline.check()
+        samples = sample(current)
+        best = solve(current, samples, bits, deadline)
+        if best is None or best.lam < -_ZERO:
+            return Missed(None if best is None else best.lam)
+        first = None
+        for smaller in reduced(current, best.grams, min(1e-10, max(best.mu, 1e-200))):
+            first = first or smaller
+            found = search(smaller, deadline, zero)
+            if isinstance(found, Found):
+                return found
+        if first is None:
+            return Missed(best.lam)
+        current = first
+    return Missed(0.0)
 
 
 def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, ...]) -> Found | None:
