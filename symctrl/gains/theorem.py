@@ -58,7 +58,7 @@ def _at_values(row: Row) -> bool:
 def _asks_of_gains(study: Study, entry: Entry) -> bool:
     from symctrl.gains.conditions import of_theorem, variant_of
 
-    if entry.readings or entry.nodes:
+    if entry.readings:
         return False
     with within(replace(study.instance, variant=variant_of(entry))):
         try:
