@@ -135,3 +135,24 @@ def test_a_closed_definition_is_a_free_symbol(study):
 def test_a_definition_whose_rate_is_taken_stays_open(study):
     made = problem(study, equal(study.rate(study.V) / study.V(), 0))
     assert all("V" in one.listings for one in closings(made))
+
+
+def test_using_an_equation_whose_right_side_is_defined_by_its_left_is_refused(study):
+    # V is defined by y: with y in turn a name for V no value could ever be found.
+    using = [Used("other", equal(study.y, 2 * study.V()), "0" * 64)]
+    with pytest.raises(StudyError, match=r"^using: y = 2\*V cannot be put in the place of its left side"):
+        Collector(study).problem(nonnegative(study.V() + study.y), "claim", using=using)
+
+
+def test_a_division_by_a_number_keeps_a_definition_open(study):
+    # What holds because of the formula of `half` is lost where the names that divide are closed.
+    @study.definition("half")
+    def half():
+        return study.x**2 / 2
+
+    @study.definition("inverse")
+    def inverse():
+        return 1 / study.c
+
+    made = problem(study, nonnegative(half() + inverse() * study.c))
+    assert any("inverse" in one.scalars and "half" in one.names for one in closings(made))
