@@ -24,7 +24,7 @@ from symctrl.gains.conditions import Condition, Conditions, conditions, is_gain,
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
 from symctrl.gains.maps import Axis, Map, refuse_too_large, swept
 from symctrl.gains.requirement import Case, Cases, Requirement, tight
-from symctrl.gains.theorem import standing_theorem
+from symctrl.gains.theorem import NOTHING, standing_theorem
 from symctrl.inputs import inputs_digest
 from symctrl.statements import nonnegative
 from symctrl.theorem import Theorem
@@ -33,6 +33,7 @@ from symctrl.written import Entry, StudyError
 if TYPE_CHECKING:
     import networkx as nx
 
+    from symctrl.rows import Row
     from symctrl.spectral.bracket import Bracket
     from symctrl.store import Store
     from symctrl.study import Study
@@ -114,11 +115,15 @@ def gains(
     maximize: str | None = None,
     store: Store | None = None,
     progress: Callable[[str], None] = lambda _: None,
+    decided: Mapping[str, Row] = NOTHING,
 ) -> Gains:
-    """The study's gains. maximize: "margin" or "decay". Raises StudyError, InputError."""
+    """The study's gains. maximize: "margin" or "decay". decided: rows that are known already, by id.
+
+    Raises StudyError, InputError.
+    """
     began = time.perf_counter()
     _refuse_axes(study, axes)
-    theorem = standing_theorem(study, store, progress)
+    theorem = standing_theorem(study, store, progress, decided)
     inputs = inputs_digest(study, set(study.statement_ids()))
     with within(study.instance):
         found = conditions(study, theorem, {*study.all_values(), *(axis.name for axis in axes)})

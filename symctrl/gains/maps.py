@@ -116,6 +116,8 @@ def swept(
     """
     cases = {name: case for name, case in cases.items() if name not in {axis.name for axis in axes}}
     sweep = _Sweep(requirements, axes, gains, cases)
+    if sweep.still == FAILS:
+        return Map(tuple(axes), np.full(sweep.shape, FAILS, np.int8))
     for left, low in _groups(sweep.shape, sweep.side):
         sweep.cut(left, low)
     return Map(tuple(axes), sweep.states)
@@ -132,7 +134,9 @@ class _Sweep:
         cases: Cases,
     ) -> None:
         self.requirements, self.axes, self.cases = requirements, axes, cases
-        self.gains = {name: value for name, value in gains.items() if name not in {a.name for a in axes}}
+        self.names = {axis.name for axis in axes}
+        self.gains = {name: value for name, value in gains.items() if name not in self.names}
+        self.still = self._still()
         self.shape = axes[1].count if len(axes) > 1 else 1, axes[0].count
         self.side = min(LARGEST_BLOCK, 1 << (max(self.shape) - 1).bit_length())
         self.states = np.zeros(self.shape, np.int8)
@@ -158,13 +162,33 @@ class _Sweep:
 
     def _decided(self, spans: Sequence[Span], within: float = 0.0) -> Array:
         """The states of boxes in floating point; within: the part of its width by which a box is shrunk."""
-        domain = Boxes()
-        boxes = {name: domain.between(value, value) for name, value in self.gains.items()}
+        moving = [one for one in self.requirements if not self.names.isdisjoint(one.names)]
+        found = together(moving, self._boxes(spans, within), self.cases, Boxes(), spans[0][0].size)
+        return np.minimum(found, self.still)
+
+    def _boxes(self, spans: Sequence[Span], within: float = 0.0) -> dict[str, Box]:
+        boxes = self._fixed(Boxes())
         for k, (first, last) in enumerate(spans):
             low, high = self.down[k][first], self.up[k][last]
             less = (high - low) * within
             boxes[self.axes[k].name] = Box(low + less, high - less)
-        return together(self.requirements, boxes, self.cases, domain, spans[0][0].size)
+        return boxes
+
+    def _fixed(self, domain: Boxes) -> dict[str, Box]:
+        return {name: domain.between(value, value) for name, value in self.gains.items()}
+
+    def _still(self) -> int:
+        """The state of the requirements that read no gain that is swept: exactly, where that is to be had."""
+        found = HOLDS
+        for one in self.requirements:
+            if self.names.isdisjoint(one.names):
+                exact, floats = Boxes(exact=True), Boxes()
+                try:
+                    made = state(one, self._fixed(exact), self.cases, exact)
+                except Unsupported:
+                    made = known(one, self._fixed(floats), self.cases, floats)
+                found = min(found, int(made[0]))
+        return found
 
     def _settle_touching(self, left: Array, low: Array) -> None:
         """Decide by fractions the cells that rounding alone may have left open: those whose inside is
@@ -178,20 +202,24 @@ class _Sweep:
                 self.states[bottom[near], first[near]] = found
 
     def _exactly(self, spans: Sequence[Span]) -> Array:
+        found = np.full(spans[0][0].size, HOLDS, np.int8)
+        for one in self.requirements:
+            found = np.minimum(found, self._one_exactly(one, spans))
+        return found
+
+    def _one_exactly(self, one: Requirement, spans: Sequence[Span]) -> Array:
+        """One requirement by fractions; rounded outward in boxes where that is not to be had."""
         domain, count = Boxes(exact=True), spans[0][0].size
-        boxes = {name: domain.between(value, value) for name, value in self.gains.items()}
+        boxes = self._fixed(domain)
         for k, (first, last) in enumerate(spans):
             boxes[self.axes[k].name] = Box(self.exact[k][first], self.exact[k][last])
         try:
-            found = np.full(count, HOLDS, np.int8)
-            for one in self.requirements:
-                found = np.minimum(found, state(one, boxes, self.cases, domain).astype(np.int8))
-            return found
-        except Unsupported:  # of one box, perhaps
+            return np.broadcast_to(state(one, boxes, self.cases, domain), count).astype(np.int8)
+        except Unsupported:  # in one box, perhaps
             if count <= FEW:
-                return np.full(count, OPEN, np.int8)
+                return together([one], self._boxes(spans), self.cases, Boxes(), count)
         halves = slice(None, count // 2), slice(count // 2, None)
-        return np.concatenate([self._exactly([(a[half], b[half]) for a, b in spans]) for half in halves])
+        return np.concatenate([self._one_exactly(one, [(a[h], b[h]) for a, b in spans]) for h in halves])
 
     def _fill(self, found: Array, left: Array, low: Array, side: int) -> None:
         if side >= FEW:

@@ -16,6 +16,7 @@ from symctrl.decide.decision import decide
 from symctrl.decide.definiteness import decide_matrix
 from symctrl.domains.boxes import Box, Boxes
 from symctrl.domains.domain import Unsupported
+from symctrl.domains.interval import IntervalDomain, ball, bounds
 from symctrl.expr import lift
 from symctrl.gains.conditions import Condition
 from symctrl.gains.definite import FAILS, HOLDS, OPEN, leaves, smallest_eigenvalue
@@ -27,6 +28,7 @@ from symctrl.gains.requirement import (
     choices,
     in_ranges,
     outputs,
+    sign,
     state,
     tight,
 )
@@ -101,7 +103,7 @@ class _At:
 
 
 def _decided(study: Study, one: Requirement, gains: Mapping[str, Fraction], cases: Cases) -> _At:
-    """By boxes; where these do not know an operation, as a claim about numbers is decided."""
+    """By boxes; where these do not know an operation by balls, and else as a claim is decided."""
     asked = cache(lambda: _verdict(study, one, gains, cases))
     reason = ""
     for domain in (Boxes(exact=True), Boxes()):
@@ -113,12 +115,30 @@ def _decided(study: Study, one: Requirement, gains: Mapping[str, Fraction], case
         if found != OPEN or any(_is_wide(cases, name) for name in one.names):
             return _At(one, found, asked)
         reason = reason or "the enclosure of its value contains zero"
-    verdict = asked()
+    free = any(_is_wide(cases, name) for name in one.names)
+    found = _by_balls(one, gains, cases)
+    verdict = asked() if found == OPEN else None
     if verdict is not None and verdict.outcome in STATES and not verdict.conditions:
-        free = any(_is_wide(cases, name) for name in one.names)
         found = STATES[verdict.outcome]
-        return _At(one, OPEN if free and found == FAILS else found, asked, reason)
-    return _At(one, OPEN, asked, reason)
+    return _At(one, OPEN if free and found == FAILS else found, asked, reason)
+
+
+def _by_balls(one: Requirement, gains: Mapping[str, Fraction], cases: Cases) -> int:
+    """The state over the hull of the cases, with the functions that balls know and boxes do not."""
+    if one.kind.startswith("positive_"):
+        return OPEN
+    domain = IntervalDomain()
+    with domain.working():
+        values = {name: ball(value, value) for name, value in gains.items()}
+        values |= {name: ball(*cases[name].hull) for name in one.names if name in cases}
+        try:
+            made = [bounds(x) for x in outputs(one, values, domain)]
+        except Unsupported:
+            return OPEN
+    if None in made:
+        return OPEN
+    exact = Boxes(exact=True)
+    return min(int(sign(one.kind, exact.between(*ends))[0]) for ends in made if ends is not None)
 
 
 def _why_open(one: _At, cases: Cases) -> str:

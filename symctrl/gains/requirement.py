@@ -18,7 +18,7 @@ import numpy as np
 
 from symctrl.bounds import Statement
 from symctrl.domains.boxes import Array, Box, Boxes, quiet, rounded
-from symctrl.domains.domain import Unsupported
+from symctrl.domains.domain import Domain, Unsupported
 from symctrl.domains.tangent import NotDifferentiable, Pair
 from symctrl.evaluate import Environment
 from symctrl.gains.definite import FAILS, HOLDS, OPEN, definite_in
@@ -104,11 +104,12 @@ def _decided(requirement: Requirement, values: Gains, domain: Boxes) -> Array:
         tree, strict = requirement.problem.claim.matrix, requirement.kind == "positive_definite"
         assert tree is not None
         return definite_in(tree, strict, outputs(requirement, values, domain), domain)
-    found = [_sign(requirement.kind, box) for box in tight(requirement, values, domain)]
+    found = [sign(requirement.kind, box) for box in tight(requirement, values, domain)]
     return np.asarray(np.min(np.broadcast_arrays(*found), axis=0))
 
 
-def _sign(kind: str, box: Box) -> Array:
+def sign(kind: str, box: Box) -> Array:
+    """HOLDS, FAILS or OPEN for a value in the box."""
     low, high = box.low, box.high
     if kind == "zero":
         holds, fails = (low == 0) & (high == 0), (low > 0) | (high < 0)
@@ -180,7 +181,7 @@ def _floats(ends: Array, towards: float) -> Array:
     return np.array([rounded(x, towards) for x in ends]) if ends.dtype == object else ends
 
 
-def outputs(requirement: Requirement, values: Gains, domain: Boxes) -> list[Box]:
+def outputs(requirement: Requirement, values: Mapping[str, Any], domain: Domain[Any]) -> list[Any]:
     """The values that the claim lists."""
     made = Environment(requirement.problem, domain, values.__getitem__, _Degrees(values))
     with quiet():
@@ -190,7 +191,7 @@ def outputs(requirement: Requirement, values: Gains, domain: Boxes) -> list[Box]
 class _Degrees:
     """A sum over the neighbours of a node of what is the same for all of them."""
 
-    def __init__(self, values: Gains) -> None:
+    def __init__(self, values: Mapping[str, Any]) -> None:
         self.values = values
 
     def value(self, at: Environment, name: str, level: int, law: str | None) -> Any:

@@ -4,8 +4,9 @@ gains.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from symctrl.context import within
@@ -21,19 +22,36 @@ if TYPE_CHECKING:
     from symctrl.study import Study
 
 
-def standing_theorem(study: Study, store: Store | None, progress: Callable[[str], None]) -> Entry | None:
-    """None where no theorem stands for all values, or none that does assumes anything of a gain."""
+NOTHING: Mapping[str, Row] = MappingProxyType({})
+
+
+def standing_theorem(
+    study: Study,
+    store: Store | None,
+    progress: Callable[[str], None],
+    decided: Mapping[str, Row] = NOTHING,
+) -> Entry | None:
+    """None where no theorem stands for all values, or none that does assumes anything of a gain.
+
+    decided: rows that are known already, by id.
+    """
     for entry in reversed(study.entries.values()):
-        if _asks_of_gains(study, entry) and _stands(study, entry, store, progress):
+        if _asks_of_gains(study, entry) and _stands(study, entry, store, progress, decided):
             return entry
     return None
 
 
-def _stands(study: Study, entry: Entry, store: Store | None, progress: Callable[[str], None]) -> bool:
+def _stands(
+    study: Study,
+    entry: Entry,
+    store: Store | None,
+    progress: Callable[[str], None],
+    decided: Mapping[str, Row],
+) -> bool:
     """Does the theorem stand, with all that it rests on, and none of it for the study's values alone?"""
     wanted, rows = {entry.id}, dict[str, Row]()
     while True:
-        rows = {row.id: row for row in verify(study, wanted, store, progress, rows).rows}
+        rows = {row.id: row for row in verify(study, wanted, store, progress, {**decided, **rows}).rows}
         below = {_base(id_) for row in rows.values() for id_ in _below(study, row)}
         if below <= {_base(id_) for id_ in rows}:
             break

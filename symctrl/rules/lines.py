@@ -57,11 +57,22 @@ def outside(chain: Chain, what: What) -> bool:
 def keeps(chain: Chain, what: What) -> bool:
     names, table = chain.qs(what["g"]), {}
     if what["a"] is None:
-        names = [g for g in names if not chain.attempt("keeps_sign", {"g": g})]
+        names = [g for g in names if not _keeps_sign(chain, g)]
     else:
         table = {"a": chain.q(what["a"])}
     met = [chain.run("keeps", {"g": g} | table) for g in names]
     return all(met)
+
+
+def _keeps_sign(chain: Chain, g: str) -> bool:
+    """Is the sign kept? What is assumed of it at the beginning without being strict is then kept as well,
+    where that can be shown.
+    """
+    if not chain.attempt("keeps_sign", {"g": g}):
+        return False
+    if any(key in chain.at.keys(g) for key, _ in chain.at.initial):
+        chain.attempt("keeps", {"g": g})
+    return True
 
 
 def holds(chain: Chain, what: What) -> bool:

@@ -4,10 +4,10 @@ from fractions import Fraction
 
 import sympy
 
-from symctrl import Study, claim, exponentially, nonzero, positive_definite, tends
+from symctrl import Study, claim, exponentially, positive_definite
 from symctrl.gains.answer import gains
-from symctrl.gains.maps import Axis, parsed
-from symctrl.vectors import absolute, exp, kron, maximum, power, row, sqrt, stack
+from symctrl.gains.maps import parsed
+from symctrl.vectors import absolute, maximum, power, row, sqrt, stack
 
 PRINCIPAL = [(0,), (1,), (2,), (0, 1), (0, 2), (1, 2), (0, 1, 2)]
 
@@ -27,7 +27,8 @@ def _written(function, symbols):
     def written():
         return function(*symbols)
 
-    written.__name__, written.__doc__ = function.__name__, f"{function.__name__} holds."
+    name = function.__name__ if function.__name__.isidentifier() else "asked"
+    written.__name__, written.__doc__ = name, f"{name} holds."
     return written
 
 
@@ -161,6 +162,3 @@ def corners(axes):
         [axis.lo + (axis.hi - axis.lo) * Fraction(k, axis.count) for k in range(axis.count + 1)]
         for axis in axes
     ]
-
-
-__all__ = ["Axis", "exp", "kron", "nonzero", "tends"]

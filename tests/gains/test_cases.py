@@ -9,7 +9,7 @@ from tests.gains.samples import answered, formation
 
 
 def coupled(default="ring:6"):
-    """A fleet whose theorem assumes a bound of the graph's eigenvalues, and a constant of one's own choice."""
+    """A fleet whose theorem assumes a bound of the graph's eigenvalues, and a constant of choice."""
     study = Study("coupled")
     fleet = study.fleet(default=default)
     i, j = fleet.node, fleet.neighbour
@@ -27,7 +27,7 @@ def coupled(default="ring:6"):
     @study.claimed("theorem")
     def vanishes():
         """All x tend to zero."""
-        given = [K >= beta * bound, c < 1, fleet.eigenvalues_at_most(bound)]
+        given = [beta * bound <= K, c < 1, fleet.eigenvalues_at_most(bound)]
         return claim(given=given, then=[tends(x[i])])
 
     @study.argument(vanishes)
@@ -103,7 +103,7 @@ def test_every_number_of_neighbours_is_a_case(spec, least, most):
         return k * fleet.degree(i) > 3
 
     found = states(answered(study))
-    assert found["below"] == (HOLDS if 3 > most else FAILS)
+    assert found["below"] == (HOLDS if most < 3 else FAILS)
     assert found["above"] == (HOLDS if 3 * least > 3 else FAILS)
 
 

@@ -205,5 +205,5 @@ def test_a_condition_speaks_of_no_single_node():
 
 
 def test_a_study_without_any_says_how_to_name_one():
-    with pytest.raises(StudyError, match="names none with @study.condition"):
+    with pytest.raises(StudyError, match=r"names none with @study\.condition"):
         answered(Study("bare"))
