@@ -21,6 +21,7 @@ from symctrl.decide.programme import by_programme, candidates, inside_logarithm
 from symctrl.decide.session import Session
 from symctrl.decide.squares import as_squares, completed, completed_with_multiplier
 from symctrl.decide.summed import terms_of_totals
+from symctrl.decide.written import set_aside, written
 from symctrl.domains.field import Exact, Poly
 
 __all__ = ["Known", "entry_of", "form_of", "terms_of"]
@@ -60,13 +61,23 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
         return None
     found = _by_fact(session, value, strict)
     if found is None and not strict:
-        found = _by_scaled_completion(session, value, known)
+        found = _by_scaled_completion(session, value, known) or set_aside(
+            session,
+            session.domain.field.normal(session.carrier(value)),
+            lambda left: _short_entry(session, left, known),
+        )
     found = _by_multipliers(session, value, strict, known) if found is None else found
     return (
         by_cases(session, value, lambda left: entry_of(session, left, strict, known))
         if found is None
         else found
     )
+
+
+def _short_entry(session: Session, value: Exact, known: Known) -> dict[str, Any] | None:
+    """The entry of what is left beside a square, without another multiplier than that of a completion."""
+    terms = terms_of(session, value, False, known)
+    return _by_scaled_completion(session, value, known) if terms is None else {"terms": terms}
 
 
 def _by_fact(session: Session, value: Exact, strict: bool) -> dict[str, Any] | None:
@@ -221,8 +232,10 @@ def _by_programme(session: Session, p: Poly, strict: bool, known: Known) -> list
     """By a linear programme with few candidates, then with many."""
     if len(session.domain.field.occurring(p)) > MAX_OCCURRING:
         return None
-    for wide in (False, True):
-        tried = candidates(session, p, known.squares, known.forms, wide)
+    tries = [(known.squares, False), (known.squares, True)]
+    own = written(session)
+    for squares, wide in [*tries, *([((*known.squares, *own), False)] if own else [])]:
+        tried = candidates(session, p, squares, known.forms, wide)
         terms = by_programme(session, p, strict, tried)
         if terms:
             return terms

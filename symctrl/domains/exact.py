@@ -22,6 +22,7 @@ from symctrl.domains.opaque import Knowledge, NowhereDefined, Opaque
 from symctrl.domains.signs import Signs
 
 MAX_TERMS = 200_000
+MAX_SQUARED = 12  # sums whose squares are noted
 
 
 @dataclass
@@ -45,6 +46,7 @@ class ExactDomain(Domain[Exact]):
         self.signs = Signs(field_)
         self.recording = Recording()
         self.opaque = Opaque(self, knowledge or Knowledge())
+        self.squared: list[Poly] = []
         self._factored: dict[tuple[tuple[Key, int], ...], list[tuple[Exact, Fraction, Key]]] = {}
 
     # Values
@@ -106,6 +108,16 @@ class ExactDomain(Domain[Exact]):
                 key = key_product(k, j)
                 products[key] = products[key] + p * q if key in products else p * q
         return merged([pair for key, p in products.items() for pair in self._cancelled(key, p).items()])
+
+    def sq_(self, a: Exact) -> Exact:
+        self._note_square(a)
+        return self.mul_(a, a)
+
+    def _note_square(self, a: Exact) -> None:
+        """What is squared may be a part of a proof that something is not negative."""
+        p = a.get(()) if len(a) == 1 else None
+        if p is not None and len(p) > 1 and len(self.squared) < MAX_SQUARED and p not in self.squared:
+            self.squared.append(p)
 
     def div_(self, a: Exact, b: Exact) -> Exact:
         if len(b) == 1 and () in b and is_number(b[()]):
@@ -290,6 +302,8 @@ class ExactDomain(Domain[Exact]):
         """a**b: repeated multiplication for an integer b, else symctrl.domains.opaque."""
         exponent = self.rational(b)
         if exponent is not None and exponent.denominator == 1:
+            if exponent == 2:
+                self._note_square(a)
             return self.power(a, int(exponent))
         return self._recorded(lambda: self.opaque.power(a, b))
 

@@ -44,7 +44,22 @@ def _by_itself(chain: Chain, name: str) -> bool:
     if any(_below(chain, V, name) for V in near) or bounded_by_constants(chain, name):
         return True
     near = _near(chain, name)
+    for V in near:
+        _squares_of(chain, V, name)
+    near = _near(chain, name)
     return any(_shifted(chain, V, name) or _solved(chain, V, name) or _quartic(chain, V, name) for V in near)
+
+
+def _squares_of(chain: Chain, V: str, name: str) -> None:
+    """What is squared in a bounded V, as it is written there, and speaks of the quantity."""
+    tape = tape_of(chain.at.statement.listings[V])
+    exponents = {k for k, step in enumerate(tape.code) if step.op == "CONST" and step.value == 2}
+    for step in tape.code:
+        twice = step.op == "SQ" or (step.op in ("POW", "CONSTPOW") and step.args[1] in exponents)
+        if twice and tape.code[step.args[0]].op in ("ADD", "SUB"):
+            s = chain.q(single(tape, step.args[0]))
+            if share_symbols(chain, s, name) and not chain.at.has("bounded", s):
+                _below(chain, V, s)
 
 
 def _near(chain: Chain, name: str) -> list[str]:

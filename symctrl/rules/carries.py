@@ -46,6 +46,8 @@ def carries(chain: Chain, what: What) -> bool:
         return existence(chain) or chain.run("exists", {"edges": []})
     if fact.of is None:
         return chain.fail(fact.word, f"that {fact.text()} is given by the rule lyapunov")
+    if fact.word == "tends":
+        existence(chain)
     names = chain.qs([fact.of] if fact.of.shape == (1, 1) else list(fact.of))
     if fact.word in SETS:
         time = None if fact.by is None else chain.q(fact.by)
