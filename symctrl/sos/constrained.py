@@ -43,7 +43,11 @@ def _programme(
 ) -> Programme | None:
     one = problem.ring.constant(1)
     weights: list[tuple[tuple[int, ...], Poly]] = [((), one)]
-    weights += [((k,), g) for k, g in enumerate(problem.nonnegative)]
+    boxes = _boxes(problem)
+    inside = {k for pair in boxes for k in pair}
+    weights += [((i, j), problem.nonnegative[i] * problem.nonnegative[j]) for i, j in boxes]
+    weights += [((k,), g) for k, g in enumerate(problem.nonnegative) if pairs or k not in inside]
+    pairs = [pair for pair in pairs if pair not in boxes]
     weights += [((i, j), problem.nonnegative[i] * problem.nonnegative[j]) for i, j in pairs]
     signs = parities([target, *problem.nonnegative, *problem.zero])
     n = len(problem.names)
@@ -66,6 +70,16 @@ def _programme(
                 by = monomial(problem.ring, b)
                 multiples.append((j, by, by * h))
     return Programme(target, tuple(blocks), tuple(multiples))
+
+
+def _boxes(problem: Problem) -> list[tuple[int, int]]:
+    """Pairs x >= a, x <= b, whose product says more: (b - a)(x - a) = (x - a)^2 + (x - a)(b - x)."""
+    ends: dict[int, dict[bool, int]] = {}
+    for k, g in enumerate(problem.nonnegative):
+        used = [v for v, e in enumerate(g.degrees()) if e]
+        if len(used) == 1 and degree(g) == 1:
+            ends.setdefault(used[0], {}).setdefault(to_fraction(g.leading_coefficient()) > 0, k)
+    return [(min(e.values()), max(e.values())) for e in ends.values() if len(e) == 2]
 
 
 def _divides(a: Monomial, b: Monomial) -> bool:

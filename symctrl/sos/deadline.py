@@ -1,8 +1,22 @@
-"""How much time is left for one problem."""
+"""How much time is left for one problem; and that it is worked on by one thread."""
 
 from __future__ import annotations
 
 import time
+from functools import cache
+from typing import Any
+
+from threadpoolctl import ThreadpoolController
+
+
+@cache
+def _controller() -> ThreadpoolController:
+    return ThreadpoolController()
+
+
+def one_thread() -> Any:
+    """A context in which matrix products use one thread."""
+    return _controller().limit(limits=1)
 
 
 class Late(Exception):  # noqa: N818

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, Literal
 
@@ -11,14 +11,15 @@ from symctrl.kernel.check import check_text
 from symctrl.sos import line
 from symctrl.sos.basis import half_newton, parities, split
 from symctrl.sos.constrained import programmes
-from symctrl.sos.deadline import Deadline, Late
+from symctrl.sos.deadline import Deadline, Late, one_thread
+from symctrl.sos.multiplier import multipliers
 from symctrl.sos.problem import Problem
 from symctrl.sos.programme import Block, Programme, TooLarge
-from symctrl.sos.proof import Proof, times_square
+from symctrl.sos.proof import Part, Proof, times_square
 from symctrl.sos.refute import Refuter
 from symctrl.sos.ring import Poly, monomial, terms, to_fmpq, to_fraction, value_at
 from symctrl.sos.scaling import Scaled, scaled
-from symctrl.sos.search import Found, Missed, on_boundary, search
+from symctrl.sos.search import Found, Missed, bounds, on_boundary, search
 
 Verdict = Literal["proved", "refuted", "undecided"]
 
@@ -38,6 +39,16 @@ class Outcome:
     proof: Proof | None = None
 
 
+@dataclass(frozen=True)
+class Later:
+    """A programme without a margin, in the variables of `better`; extra: the multiplier in it."""
+
+    programme: Programme
+    better: Scaled
+    words: str
+    extra: tuple[Part, ...] = ()
+
+
 class Decided(Exception):  # noqa: N818
     """The search ends here."""
 
@@ -54,7 +65,7 @@ class Decision:
         self.deadline = deadline
         self.tried: list[str] = []
         self.refuter = Refuter(problem, deadline)
-        self.later: list[tuple[Programme, Scaled, str]] = []
+        self.later: list[Later] = []
         self.point: tuple[Fraction, ...] | None = None
         self.proof: Proof | None = None
 
@@ -66,7 +77,9 @@ class Decision:
             return done.outcome
         except Late as late:
             self.tried.append(f"stopped by {late}")
-        return Outcome("undecided", "neither a proof nor a witness was found", tried=self.tried)
+        bound = lower_bound(self.problem, self.deadline)
+        reason = "neither a proof nor a witness was found"
+        return Outcome("undecided", reason, bound=bound, tried=self.tried)
 
     def _all(self) -> None:
         problem = self.problem
@@ -84,6 +97,8 @@ class Decision:
         if not problem.everywhere:
             self._constrained()
         self._boundary()
+        if problem.everywhere and not problem.strict:
+            self._multiplied()
 
     def _trivial(self) -> None:
         p = self.problem.polynomial
@@ -117,8 +132,8 @@ class Decision:
         if found is not None:
             self.proved(Proof(found.parts), "it is a sum of squares")
 
-    def _square_programme(self, p: Poly) -> Found | None:
-        """p as a sum of squares over half its Newton polytope, in floats first."""
+    def _square_programme(self, p: Poly, extra: tuple[Part, ...] = (), words: str = "") -> Found | None:
+        """p as a sum of squares over half its Newton polytope, in floats first. extra: see `_multiplied`."""
         better = scaled(Problem(self.problem.names, p))
         target = better.problem.polynomial
         basis = half_newton(terms(target))
@@ -127,27 +142,39 @@ class Decision:
             Block((), one, tuple(monomial(self.problem.ring, b) for b in part))
             for part in split(basis, parities([target]))
         )
-        self.tried.append(f"a sum of squares over {len(basis)} monomials")
+        self.tried.append(f"{words or 'a sum of squares'} over {len(basis)} monomials")
         programme = Programme(target, blocks)
         found = self._search(programme)
         if isinstance(found, Found):
             return Found(better.back(Proof(found.parts)).parts)
-        if isinstance(found, Missed) and found.near and p == self.problem.polynomial:
-            self.later.append((programme, better, "a sum of squares"))
+        if isinstance(found, Missed) and found.near and not self.problem.strict:
+            self.later.append(Later(programme, better, words or "a sum of squares", extra))
         return None
+
+    def _multiplied(self) -> None:
+        """s p as a sum of squares, for powers s of the sum of squares of the variables."""
+        for name, s, part in multipliers(self.problem.polynomial):
+            self.later = []
+            words = f"a sum of squares after multiplication by {name}"
+            found = self._square_programme(s * self.problem.polynomial, (part,), words)
+            if found is not None:
+                self.proved(Proof(found.parts, constant=Fraction(0), multiplier=(part,)), f"it is {words}")
+            self._boundary()
 
     def _boundary(self) -> None:
         """The programmes that had no margin, again with many digits, the small ones first."""
-        for programme, better, words in sorted(self.later, key=lambda entry: len(entry[0].support)):
-            self.tried.append(f"{words}, on the boundary")
+        for entry in sorted(self.later, key=lambda entry: len(entry.programme.support)):
+            self.tried.append(f"{entry.words}, on the boundary")
             try:
-                found = on_boundary(programme, self.deadline, better.problem.zero)
+                found = on_boundary(entry.programme, self.deadline, entry.better.problem.zero)
             except TooLarge as error:
                 self.tried[-1] += f", too large ({error})"
                 continue
             if isinstance(found, Found):
-                proof = better.back(Proof(found.parts, found.multiples))
-                self.proved(proof, f"it is {words}")
+                proof = entry.better.back(Proof(found.parts, found.multiples))
+                if entry.extra:
+                    proof = replace(proof, constant=Fraction(0), multiplier=entry.extra)
+                self.proved(proof, f"it is {entry.words}")
 
     def _search(self, programme: Programme, zero: tuple[Poly, ...] = ()) -> Found | Missed | None:
         try:
@@ -210,7 +237,7 @@ class Decision:
                 proof = better.back(Proof(found.parts, found.multiples))
                 self.proved(proof, f"it is a sum of squares times {words}")
             if isinstance(found, Missed) and found.near:
-                self.later.append((programme, better, f"a sum of squares times {words}"))
+                self.later.append(Later(programme, better, f"a sum of squares times {words}"))
 
     def refuted(self, point: tuple[Fraction, ...] | None) -> None:
         """Ends with the witness, if there is one."""
@@ -240,6 +267,46 @@ class Decision:
         raise Decided(Outcome(verdict, reason, made, values, bound, self.tried, vacuous))
 
 
+def lower_bound(problem: Problem, deadline: Deadline) -> Fraction | None:
+    """A number that the polynomial does not go below on the set, by a proof that the kernel accepts."""
+    better = scaled(problem)
+    inner = better.problem
+    programme = None
+    if problem.everywhere:
+        basis = half_newton([*terms(inner.polynomial), (0,) * len(problem.names)])
+        signs = parities([inner.polynomial])
+        one = inner.ring.constant(1)
+        parts = [tuple(monomial(inner.ring, b) for b in part) for part in split(basis, signs)]
+        programme = Programme(inner.polynomial, tuple(Block((), one, part) for part in parts))
+    else:
+        programme = next((made for _, made in programmes(inner, inner.polynomial, 0)), None)
+    late = Deadline(max(2.0, min(5.0, deadline.seconds / 5)))
+    if programme is None or not programme.reaches:
+        return None
+    try:
+        with one_thread():
+            return _best(problem, programme, better, late)
+    except (Late, TooLarge):
+        return None
+
+
+def _best(problem: Problem, programme: Programme, better: Scaled, late: Deadline) -> Fraction | None:
+    for value in bounds(programme, late):
+        shifted = replace(programme, target=programme.target - to_fmpq(value))
+        found = search(shifted, late, better.problem.zero)
+        if isinstance(found, Found):
+            claim = replace(problem, polynomial=problem.polynomial - to_fmpq(value), strict=False)
+            proof = better.back(Proof(found.parts, found.multiples))
+            made = certificate(claim.statement(), proof.as_json())
+            if check_text(canonical(made)).status == "valid":
+                return value
+    return None
+
+
 def decide(problem: Problem, seconds: float) -> Outcome:
-    """Is the polynomial nonnegative on the set? Within so many seconds, or undecided."""
-    return Decision(problem, Deadline(seconds)).run()
+    """Is the polynomial nonnegative on the set? Within so many seconds, or undecided.
+
+    With one thread: several in one small matrix product wait for each other when the machine is busy.
+    """
+    with one_thread():
+        return Decision(problem, Deadline(seconds)).run()

@@ -1,4 +1,4 @@
-"""The face of the cone on which the Gram matrices of a programme lie, exactly, from their kernels in many digits.
+"""The face of the cone on which the Gram matrices of a programme lie, exactly, from kernels in many digits.
 
 If p = b' G b vanishes somewhere, every Gram matrix of p has a kernel, and none is definite. The polynomials
 w'b that G can use are those with w'v = 0 for all v in the kernel. They have rational bases even where the
@@ -25,7 +25,7 @@ _GAP = 1e-5  # between the pivots of the kernel and the others
 
 
 def reduced(programme: Programme, grams: list[Any], floor: float) -> Iterator[Programme]:
-    """The programme over the bases of its face; several where it is unclear which pivots belong to the kernel.
+    """The programme over the bases of its face; several where it is unclear what belongs to the kernel.
 
     floor: relative to the largest pivot, what is as good as zero.
     """

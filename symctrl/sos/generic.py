@@ -28,10 +28,13 @@ MAX_SYSTEM = 1200
 class Rounding:
     """One attempt at an exact identity near float Gram matrices in the programme's bases."""
 
-    def __init__(self, programme: Programme, hs: Sequence[Any], multiples: Sequence[float]) -> None:
+    def __init__(
+        self, programme: Programme, hs: Sequence[Any], multiples: Sequence[float], more: int = 2
+    ) -> None:
         self.programme = programme
         self.over = programme.target.context()
         self.hs = hs
+        self.more = more
         self.cs = [Fraction(round(c * 2**_BITS), 2**_BITS) for c in multiples]
         self.parts: list[Part] = []
         self.grams: dict[int, list[list[Fraction]]] = {}
@@ -44,7 +47,7 @@ class Rounding:
         for k in range(len(blocks)):
             if k in plain:
                 continue
-            gram = _rational(self.hs[k])
+            gram = _rational(self.hs[k], self.more)
             if gram is None:
                 return None
             self.grams[k] = gram
@@ -129,13 +132,13 @@ class Rounding:
         return parts, self.cs
 
 
-def _rational(h: Any) -> list[list[Fraction]] | None:
-    """The matrix rounded so that it stays definite."""
+def _rational(h: Any, more: int) -> list[list[Fraction]] | None:
+    """The matrix rounded so that it stays definite, with some bits more."""
     f = exponents_of(h)
     bits = bits_for(h, f)
     if bits is None or bits > 48:
         return None
-    bits = min(bits + 2, 50)
+    bits = min(bits + more, 50)
     found = scaled_integers(h, f, bits)
     return [
         [Fraction(a) * Fraction(2) ** (f[i] + f[j] - bits) for j, a in enumerate(row)]

@@ -37,8 +37,11 @@ class Iterate:
     dual_residual: float
 
 
-def iterates(s: Samples) -> Iterator[Iterate]:
-    """Points with X_k > 0 on the way to the best lam; ends where floats go no further."""
+def iterates(s: Samples, constant: bool = False) -> Iterator[Iterate]:
+    """Points with X_k > 0 on the way to the best lam; ends where floats go no further.
+
+    constant: lam is subtracted from the polynomial instead, and the Gram matrices are X_k alone.
+    """
     size = float(np.abs(s.target).max()) or 1.0
     b = s.target / size
     ws, qs = s.weights, s.rows
@@ -51,7 +54,7 @@ def iterates(s: Samples) -> Iterator[Iterate]:
     def up(w: Any) -> Any:
         return w if v is None else v @ w
 
-    a0 = down(sum(w * (q * q).sum(axis=1) for q, w in zip(qs, ws, strict=True)))
+    a0 = down(s.row_scale if constant else sum(w * (q * q).sum(axis=1) for q, w in zip(qs, ws, strict=True)))
     b = down(b)
     w = a0 / float(a0 @ a0)
     fit = float(b @ a0) / float(a0 @ a0)
@@ -67,7 +70,7 @@ def iterates(s: Samples) -> Iterator[Iterate]:
         mu = sum(float(np.sum(x * z)) for x, z in zip(xs, zs, strict=True)) / rows
         residual = float(np.abs(rp).max())
         dual = max(float(np.abs(r).max()) for r in rds) + abs(rl)
-        shown = [size * (x + lam * np.eye(len(x))) for x in xs]
+        shown = [size * (x + (0 if constant else lam) * np.eye(len(x))) for x in xs]
         yield Iterate(size * lam, shown, size * mu, size * residual, size * float(b @ w), y, dual)
         if mu < 1e-15 and residual < 1e-12:
             return
@@ -109,15 +112,21 @@ def _direction(
         roots.append((np.linalg.cholesky(x), root))
     schur = down(down(schur).T)
     schur[np.diag_indices_from(schur)] *= 1 + 1e-14
-    factor = cho_factor(schur, lower=True, overwrite_a=True, check_finite=False)
-    along = cho_solve(factor, a0, check_finite=False)
+    factor = cho_factor(schur, lower=True, check_finite=False)
+
+    def solve_schur(right: Any) -> Any:
+        """With one step of refinement."""
+        first = cho_solve(factor, right, check_finite=False)
+        return first + cho_solve(factor, right - schur @ first, check_finite=False)
+
+    along = solve_schur(a0)
     below = float(a0 @ along)
 
     def solve(center: list[Any]) -> Any:
         # dZ = A*(dy) + Rd, dX = center - X - sym(X dZ Z^-1)
         fixed = [c - x - _sym(x @ rd @ zi) for c, x, rd, zi in zip(center, xs, rds, inverses, strict=True)]
         rhs = down(_apply(qs, ws, fixed)) - rp
-        first = cho_solve(factor, rhs, check_finite=False)
+        first = solve_schur(rhs)
         dl = (rl - float(a0 @ first)) / below
         dw = first + dl * along
         y = up(dw)

@@ -1,4 +1,4 @@
-"""The interior point of `interior` with numbers of hundreds of bits, for problems on the boundary of the cone.
+"""The interior point of `interior` with numbers of hundreds of bits, for problems on the cone's boundary.
 
 Where the best margin is zero, doubles find the kernel of the Gram matrix to a few digits only; here its small
 eigenvalues are as small as wanted, and `face` reads the exact face off the kernel. Balls are not followed:
@@ -32,6 +32,7 @@ class Precise:
     lam: float
     grams: list[Any]  # arb_mat
     mu: float
+    orthonormal: list[Any]  # the same in floats, in the orthonormal bases of the samples
 
 
 def solve(programme: Programme, samples: Samples, bits: int, deadline: Deadline) -> Precise | None:
@@ -191,7 +192,8 @@ class _Iteration:
         grams = [
             _sym(t * x * t.transpose()) * self.size for t, x in zip(self.triangles, last[1], strict=True)
         ]
-        return Precise(last[0], grams, last[2])
+        floats = [np.array([[float(a) for a in row] for row in x.tolist()]) * self.size for x in last[1]]
+        return Precise(last[0], grams, last[2], floats)
 
     def inverse(self, a: Any) -> Any:
         """Elimination with balls loses twice the digits that its midpoints would; so it gets more of them."""
@@ -251,7 +253,7 @@ def _longest(root: Any, d: Any) -> float:
 
 
 def _left_kernel(values: list[list[Any]], scale: list[float]) -> Any:
-    """Rows that are orthogonal to each multiple's values at the points, scaled as the points are: an arb_mat."""
+    """Rows that are orthogonal to each multiple's values at the points, which are scaled: an arb_mat."""
     count, m = len(values), len(values[0])
     reduced, rank = fmpq_mat(count, m, [x for row in values for x in row]).rref()
     pivots = []

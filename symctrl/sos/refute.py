@@ -18,6 +18,7 @@ from scipy.optimize import minimize
 from symctrl.sos.deadline import Deadline
 from symctrl.sos.floats import Floats
 from symctrl.sos.onto import Onto
+from symctrl.sos.polish import stationary
 from symctrl.sos.problem import Problem
 from symctrl.sos.ring import value_at
 
@@ -46,8 +47,23 @@ class Refuter:
         return self._among(self._grid()) or self._curves()
 
     def thorough(self, starts: int = 24) -> Point | None:
-        """Descents from many starts."""
-        return self._among_floats(self._descents(starts))
+        """Descents from many starts, then Newton's method from where they ended."""
+        return self._among_floats(self._descents(starts)) or self._polished()
+
+    def _polished(self) -> Point | None:
+        """Where the lowest values are nearly zero, with many digits."""
+        if self.hs or self.gs:
+            return None
+        size = float(np.abs(self.p.coefficients).max())
+        seen: list[Any] = []
+        for value, x in sorted(self.best, key=lambda entry: entry[0])[:8]:
+            if value > 1e-6 * size or any(np.abs(x - y).max() < 1e-4 * (1 + np.abs(y).max()) for y in seen):
+                continue
+            seen.append(x)
+            for point in stationary(self.problem.polynomial, x):
+                if self.contradicts(point):
+                    return point
+        return None
 
     def contradicts(self, point: Sequence[Fraction]) -> bool:
         """Exactly: is the point in the set, and the claim false there?"""
@@ -99,7 +115,8 @@ class Refuter:
             return None
         n, exponents, coefficients = self.n, self.p.exponents, self.p.coefficients
         directions = [*np.eye(n, dtype=int), -np.ones(n, dtype=int), np.ones(n, dtype=int)]
-        directions += list(self.draw.integers(-2, 3, (60, n)))
+        directions += [np.array(h) for h in product((-2, -1, 0, 1, 2), repeat=n)] if n <= 3 else []
+        directions += list(self.draw.integers(-2, 3, (60 if n > 3 else 0, n)))
         lowest = exponents[coefficients < 0]
         directions += [2 * a - exponents.mean(axis=0).astype(int) for a in lowest[:20]]
         signs = np.vstack([self.draw.choice([-1.0, 1.0], (16, n)), np.ones(n), -np.ones(n)])

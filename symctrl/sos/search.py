@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
+from math import frexp
 from typing import Any
 
 import numpy as np
@@ -86,6 +89,10 @@ def on_boundary(
         best = solve(current, samples, bits, deadline)
         if best is None or best.lam < -_ZERO:
             return Missed(None if best is None else best.lam)
+        if best.lam > 0:
+            done = _rounded(current, samples, best.orthonormal, zero)
+            if done is not None:
+                return done
         first = None
         for smaller in reduced(current, best.grams, min(1e-10, max(best.mu, 1e-200))):
             first = first or smaller
@@ -96,6 +103,22 @@ def on_boundary(
             return Missed(best.lam)
         current = first
     return Missed(0.0)
+
+
+def bounds(programme: Programme, deadline: Deadline) -> Iterator[Fraction]:
+    """Numbers that may be subtracted from the target, the largest first, as floats have it."""
+    programme.require_room(seconds=max(deadline.left, 1.0))
+    best = None
+    for point in iterates(sample(programme), constant=True):
+        deadline.check()
+        if point.residual < 1e-6 * (1 + abs(point.lam)):
+            best = point.lam
+    if best is None:
+        return
+    size = max(1.0, abs(best))
+    for loss in (1e-7, 1e-5, 1e-3, 1e-1, 1.0):
+        unit = Fraction(2) ** (frexp(loss * size)[1] - 2)
+        yield ((Fraction(best) - Fraction(loss * size)) // unit) * unit
 
 
 def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, ...]) -> Found | None:
@@ -111,7 +134,7 @@ def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, .
     floats: list[float] = []
     if programme.multiples:
         floats = np.linalg.lstsq(samples.multiples, gap, rcond=None)[0].tolist()
-    done = Rounding(programme, hs, floats).run()
+    done = Rounding(programme, hs, floats).run() or Rounding(programme, hs, floats, 24).run()
     if done is None:
         return None
     sums = [0 * programme.target for _ in zero]
