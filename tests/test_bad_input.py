@@ -118,7 +118,7 @@ def test_a_matrix_that_is_none(tmp_path, text, says):
         (["single.py", "--graph", "ring:4"], ["single", "takes no graph"]),
         (["pair.py", "--graph", "ring:2"], ["ring:2", "3 nodes"]),
         (["pair.py", "--graph", "ring:x"], ["ring:x", "whole number"]),
-        (["pair.py", "--graph", "tree:4"], ["tree:4", "ring:N"]),
+        (["pair.py", "--graph", "bush:4"], ["bush:4", "ring:N"]),
         (["pair.py", "--graph", "complete:1000000"], ["complete:1000000"]),
         (["pair.py", "--graph", "none.txt"], ["none.txt"]),
     ],
