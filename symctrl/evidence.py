@@ -126,6 +126,9 @@ def _moved(problem: Problem, place: Place, at: Environment, law: str | None, ste
     return Place(values, place.edges)
 
 
+TURNED = {">=": "<=", "<=": ">=", ">": "<=", "<": ">="}
+
+
 def twins(study: Study, claim: Equal, id_: str) -> Twins:
     """One twin for each addend as written on the sides that the author typed, and one for the sides being the
     same.
@@ -135,15 +138,19 @@ def twins(study: Study, claim: Equal, id_: str) -> Twins:
     ]
     if len(addends) == 1 and not any(map(_is_rate, (claim.left, claim.right))) and _is_zero(claim.right):
         addends = []
-    still_true = [
-        f"without {text(t)}" for t, gone in zip(addends, _vanishing(study, addends, id_), strict=True) if gone
-    ]
+    still_true, failed = [], []
+    for t in addends:
+        try:
+            if _vanishes(Collector(study).problem(Conforms(t), id_)):
+                still_true.append(f"without {text(t)}")
+        except Exception as error:
+            failed.append(f"without {text(t)}: {type(error).__name__}: {error}")
     problem = Collector(study).problem(claim, id_)
     outputs = problem.listings["claim"].outputs
     half = len(outputs) // 2
     if outputs[:half] == outputs[half:]:
         still_true.append("both sides are the same graph: nothing is claimed")
-    return Twins(len(addends) + 1, tuple(still_true))
+    return Twins(len(addends) + 1, tuple(still_true), tuple(failed))
 
 
 def reversed_twins(problems: Sequence[Problem]) -> Twins | None:
@@ -151,8 +158,22 @@ def reversed_twins(problems: Sequence[Problem]) -> Twins | None:
     signed = [p for p in problems if p.claim.kind not in ("equal", "conforms")]
     if not signed:
         return None
-    still_true = [f"reversed: {p.text}" for p in signed if not _reversed_fails(p)]
-    return Twins(len(signed), tuple(dict.fromkeys(still_true)))
+    still_true, failed = [], []
+    for p in signed:
+        try:
+            if not _reversed_fails(p):
+                still_true.append(f"reversed: {_reversed(p)}")
+        except Exception as error:
+            failed.append(f"reversed: {_reversed(p)}: {type(error).__name__}: {error}")
+    return Twins(len(signed), tuple(dict.fromkeys(still_true)), tuple(dict.fromkeys(failed)))
+
+
+def _reversed(problem: Problem) -> str:
+    """The twin in words: the bound the other way round, the matrix with its sign turned."""
+    words = problem.text.split(" ")
+    if problem.claim.matrix is not None:
+        return f"{problem.text}, of minus the matrix"
+    return " ".join(TURNED.get(word, word) for word in words)
 
 
 def _reversed_fails(problem: Problem) -> bool:
@@ -176,11 +197,6 @@ def _diagonal(tree: Mapping[str, Any]) -> list[int]:
     if "blocks" in tree:
         return [k for block in tree["blocks"] for k in _diagonal(block)]
     return _diagonal(tree["congruence"] if "congruence" in tree else tree["kron_identity"])
-
-
-def _vanishing(study: Study, addends: Sequence[Expr], id_: str) -> list[bool]:
-    """Which addends are zero on the whole domain, so that leaving them out changes nothing."""
-    return [_vanishes(Collector(study).problem(Conforms(t), id_)) for t in addends]
 
 
 def _vanishes(problem: Problem) -> bool:

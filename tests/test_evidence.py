@@ -87,7 +87,7 @@ def test_reversed_bounds_fail_unless_both_signs_hold() -> None:
     assert (fails.tried, fails.still_true) == (2, ())
     holds = module.reversed_twins([problem(nonnegative(theta - theta))])
     assert holds is not None
-    assert len(holds.still_true) == 1
+    assert holds.still_true == ("reversed: theta - theta <= 0",)
     assert module.reversed_twins([problem(equal(theta, theta))]) is None
 
 
@@ -120,3 +120,16 @@ def test_the_first_mismatch_is_said_in_words(claim: Statement, words: str) -> No
     assert not found.consistent
     assert found.mismatch is not None
     assert words in found.mismatch
+
+
+def test_an_error_in_a_twin_is_said_of_the_twin(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object) -> bool:
+        raise ZeroDivisionError("a quotient by zero")
+
+    monkeypatch.setattr(module, "_reversed_fails", broken)
+    monkeypatch.setattr(module, "_vanishes", broken)
+    turned = module.reversed_twins([problem(nonnegative(theta**2))])
+    assert turned is not None
+    assert turned.failed == ("reversed: theta^2 <= 0: ZeroDivisionError: a quotient by zero",)
+    found = module.twins(study, equal(absolute(theta), sgn(theta) * theta), "claim")
+    assert (len(found.failed), found.still_true) == (2, ())

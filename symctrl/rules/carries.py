@@ -17,7 +17,6 @@ from symctrl.rules.edges import define, edges
 from symctrl.rules.growth import growths
 from symctrl.rules.quantities import claimed, speaks_of_all, total_of
 from symctrl.rules.ways import ensure, ensure_all, exponentially_by
-from symctrl.text import text
 
 __all__ = [
     "bounded_reads",
@@ -58,20 +57,12 @@ def carries(chain: Chain, what: What) -> bool:
         return all(met)
     missing = ensure_all(chain, fact.word, names)
     for name in missing:
-        chain.fail(
-            fact.word, f"no way was found from the facts so far to {fact.word} of {_said(chain, name)}"
-        )
+        chain.fail(fact.word, f"no way was found from the facts so far to {fact.word} of {chain.said(name)}")
     return not missing
 
 
 def _is_left_out(hint: Any) -> bool:
     return hint is None or (isinstance(hint, tuple) and not hint)
-
-
-def _said(chain: Chain, name: str) -> str:
-    """A quantity in the author's words."""
-    expr = chain.loop.quantities.get(name)
-    return name if expr is None else text(expr)
 
 
 def _hinted(chain: Chain, word: str, name: str, hints: What) -> bool:

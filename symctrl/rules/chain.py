@@ -19,7 +19,8 @@ from symctrl.kernel.rules.roles import Roles
 from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
 from symctrl.rules.algebra import rate_over
-from symctrl.rules.loop import Loop
+from symctrl.rules import tapes
+from symctrl.rules.loop import Loop, tape_of
 from symctrl.rules.seeker import Abandoned, Outcome, Seeker
 from symctrl.rules.tapes import arguments
 from symctrl.text import text
@@ -201,12 +202,18 @@ class Chain:
                 broken = not self.fail(line.rule, str(error))
             yield Done(line, tuple(map(self.worded, self.outcomes)))
 
+    def said(self, name: str) -> str:
+        """A quantity in the author's words, or as the formula that it is; any other name as it stands."""
+        if name not in self.loop.quantities:
+            return name
+        expr = self.loop.quantities[name]
+        return tapes.said(tape_of(self.at.statement.listings[name])) if expr is None else text(expr)
+
     def worded(self, outcome: Outcome) -> Outcome:
         """The outcome with expressions in the place of the names of quantities."""
 
         def shown(match: re.Match[str]) -> str:
-            expr = self.loop.quantities.get(match.group())
-            return match.group() if expr is None else text(expr)
+            return self.said(match.group())
 
         role, reason = (re.sub(r"\bx\d+\b", shown, said) for said in (outcome.role, outcome.reason))
         return replace(outcome, role=role, reason=reason)

@@ -37,3 +37,40 @@ def arguments(listings: Iterable[Tape]) -> list[Tape]:
             elif step.op in ("SQRT", "LOG", "POW", "CONSTPOW", "ASIN", "ACOS"):
                 found.append(single(tape, step.args[0]))
     return found
+
+
+INFIX = {"ADD": " + ", "SUB": " - ", "MUL": "*", "DIV": "/"}
+
+
+def said(tape: Tape) -> str:
+    """The only output of a tape as text."""
+    texts: list[str] = []
+    for step in tape.code:
+        args = [texts[a] for a in step.args]
+        whole = [text if text.isidentifier() or _is_closed(text) else f"({text})" for text in args]
+        if step.op == "INPUT":
+            texts.append(step.name)
+        elif step.op == "CONST":
+            texts.append(str(step.value))
+        elif step.op in INFIX:
+            left, right = (args[0], whole[1]) if step.op in ("ADD", "SUB") else whole
+            texts.append(f"{left}{INFIX[step.op]}{right}")
+        elif step.op in ("NEG", "SQ", "TWICE", "INV"):
+            texts.append(
+                {"NEG": "-{}", "SQ": "{}^2", "TWICE": "2*{}", "INV": "1/{}"}[step.op].format(whole[0])
+            )
+        elif step.op in ("POW", "CONSTPOW"):
+            texts.append(f"{whole[0]}^{whole[1]}")
+        else:
+            texts.append(f"{step.op.lower()}({', '.join(args)})")
+    return texts[tape.outputs[0]]
+
+
+def _is_closed(text: str) -> bool:
+    """Is it a name, a number or a call, that needs no brackets beside an operation?"""
+    depth = 0
+    for k, letter in enumerate(text):
+        depth += {"(": 1, ")": -1}.get(letter, 0)
+        if depth == 0 and (letter in "+-*/^ " or (letter == ")" and k < len(text) - 1)):
+            return False
+    return True
