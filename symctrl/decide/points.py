@@ -79,9 +79,10 @@ def points(problem: Problem, seed: int = 1) -> Iterator[Place]:
     made = recipe(problem)
     graphs: tuple[tuple[tuple[str, str], ...], ...] = SMALL_GRAPHS if is_fleet(problem) else ((),)
     generator = random.Random(seed)
-    count = 0
+    count, begin = 0, 0
     while True:
-        yield _point(made, graphs[count % len(graphs)], generator, height=2 + count // 2)
+        place, begin = _point(made, graphs[count % len(graphs)], generator, 2 + count // 2, begin)
+        yield place
         count += 1
 
 
@@ -97,12 +98,15 @@ def admissible(problem: Problem, place: Place) -> str | None:
     return None
 
 
-def _point(made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int) -> Place:
+def _point(
+    made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.Random, height: int, begin: int
+) -> tuple[Place, int]:
+    """A place and the attempt with which to begin for the next one: what grew large enough stays large."""
     failed = "a value that is not rational"
     constants: dict[str, Fraction] = {}
-    for attempt in range(TRIES_PER_POINT):
-        grown = height + attempt // TRIES_PER_CONSTANTS
-        if attempt % TRIES_PER_CONSTANTS == 0:
+    for attempt in range(begin, begin + TRIES_PER_POINT):
+        grown = height + (attempt - begin) // TRIES_PER_CONSTANTS
+        if (attempt - begin) % TRIES_PER_CONSTANTS == 0:
             constants = _constants(made, edges, generator, grown, attempt)
         try:
             place = Place(_draw(made, edges, generator, grown, attempt, constants), edges)
@@ -110,13 +114,13 @@ def _point(made: Recipe, edges: tuple[tuple[str, str], ...], generator: random.R
         except (NoExactValue, ZeroDivisionError):
             continue
         if wrong is None:
-            return place
+            return place, attempt
         failed = wrong
     resting = (_at_rest(made, edges, generator, height) for _ in range(RESTS))
     found = next((place for place in resting if place is not None), None)
     if found is None:
         raise NoPoint(f"no point was found at which all assumptions hold; the last to fail was {failed}")
-    return found
+    return found, begin
 
 
 def _at_rest(
