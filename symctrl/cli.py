@@ -27,7 +27,7 @@ app = typer.Typer(add_completion=False, rich_markup_mode=None, pretty_exceptions
 _UsageError: type[Any] = typer.BadParameter.__mro__[2]
 
 INTERRUPTED = 130
-GRAPH = "ring:N, path:N, star:N, complete:N, .. or a file of edges."
+GRAPH = "ring:N, path:N, star:N, complete:N, tree:N, grid:RxC or a file of edges."
 
 JsonFile = Annotated[
     str | None, typer.Option("--json", metavar="FILE", help="Write JSON; - is standard output.")
