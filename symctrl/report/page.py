@@ -251,15 +251,34 @@ class Failure:
 
 
 @dataclass(frozen=True)
+class GainLine:
+    """One condition on gains. text and formula: what it says, one of them or both. note: why it is open."""
+
+    text: str
+    formula: Markup
+    chip: Chip
+    note: str
+    margin: str
+    source: Link
+
+
+@dataclass(frozen=True)
+class Fact:
+    name: str
+    value: Markup
+
+
+@dataclass(frozen=True)
 class Gains:
-    """A map of gains that another part of the tool has made: its drawings, bounds and the command."""
+    """A map of gains: two drawings of it, the conditions that decide, and the command that makes it again."""
 
     wide: Markup
     narrow: Markup
-    caption: str
-    bounds: tuple[tuple[str, ...], ...]
+    caption: Markup
+    bounds: tuple[GainLine, ...]
     heads: tuple[str, ...]
-    command: str
+    command: tuple[str, ...]  # in parts between which a line may break
+    facts: tuple[Fact, ...] = ()
 
 
 @dataclass(frozen=True)

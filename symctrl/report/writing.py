@@ -11,8 +11,12 @@ from symctrl import files, registry, runs
 from symctrl.certify import tool
 from symctrl.files import InputError
 from symctrl.parallel import Request
-from symctrl.report import build, rendering, shelf
+from symctrl.report import build, gainsblock, rendering, shelf
+from symctrl.report.page import Gains
 from symctrl.report.shelf import INDEX
+from symctrl.rows import Report
+from symctrl.store import Store, folder
+from symctrl.study import Study
 
 Watch = Callable[[str], AbstractContextManager[Callable[[str], None]]]
 
@@ -27,13 +31,18 @@ def write(names: Sequence[str], out: Path, watch: Watch) -> list[Path]:
     files.refuse_unwritable_folder(out)
     pages: list[tuple[str, shelf.Entry, str]] = []
     for name, (study, report) in zip(names, decided, strict=True):
-        made = build.page(report, study, name, title(name, study.name))
+        made = build.page(report, study, name, title(name, study.name), _gains(name, study, report, watch))
         file = f"{runs.file_name(study.name)}.html"
         if file == INDEX:
             raise InputError(f"study {study.name}: its page would be the index; give the study another name")
         entry = shelf.entry(made, file)
         pages.append((file, entry, rendering.page(made, shelf.card(entry))))
     return _written(out, pages)
+
+
+def _gains(name: str, study: Study, report: Report, watch: Watch) -> Gains | None:
+    with watch(study.name) as progress, registry.locate(name).blamed():
+        return gainsblock.block(report, study, name, Store(folder()), progress)
 
 
 def title(asked: str, study: str) -> str:

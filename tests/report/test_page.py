@@ -7,10 +7,11 @@ from html import unescape
 from pathlib import Path
 
 import pytest
+from markupsafe import Markup as Made
 
 from symctrl.report import build, rendering, shelf
 from symctrl.report.names import certificate_size, groups, numbers
-from symctrl.report.page import Chip, Gains, Page
+from symctrl.report.page import Chip, GainLine, Gains, Link, Page
 from tests.report import sample
 from tests.report.markup import Markup, faults
 
@@ -66,7 +67,8 @@ def test_every_block_with_data_is_there_and_no_other(text):
 
 
 def test_a_map_of_gains_has_its_place(text):
-    gains = Gains("<svg>", "<svg>", "caption of it", (("2", "0.1"),), ("c", "true"), "symctrl gains spring")
+    line = GainLine("c is large", Made(""), Chip("proved", "holds"), "", "≥ 2", Link("all gains"))
+    gains = Gains("<svg>", "<svg>", "caption of it", (line,), ("c", "true"), ("symctrl gains", "--sweep"))
     made = html(replace(sample.page(), gains=gains))
     assert made.index('id="failures"') < made.index('id="gains"') < made.index('id="evidence"')
     assert faults(made) == []

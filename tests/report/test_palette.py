@@ -35,3 +35,10 @@ def test_text_can_be_read_on_everything_that_is_under_it(palette):
         assert all(contrast(palette[name], palette[under]) >= 4.5 for name in TEXT)
     for tint in ("ins", "del"):
         assert contrast(palette["ink"], palette[tint]) >= 4.5
+
+
+@pytest.mark.parametrize("palette", PALETTES, ids=["light", "dark", "print"])
+def test_names_on_a_map_can_be_read(palette):
+    for name, under in [("ink", "gf"), ("ink", "gi"), ("proved", "gf"), ("soft", "gi")]:
+        assert contrast(palette[name], palette[under]) >= 4.5
+    assert contrast(palette["paper"], palette["gu"]) >= 4.5
