@@ -48,6 +48,7 @@ _CHIPS = {
     FAILS: Chip("refuted", "fails"),
     OPEN: Chip("undecided", "undecided"),
 }
+_NODES = {"i": "i", "j": "j"}
 _OUTSIDE = {False: "the proof does not apply", True: "one of them fails"}
 _BOUNDS = ("positive", "nonnegative")
 
@@ -162,24 +163,24 @@ class _Written:
             for axis in made.axes
         ]
         at = [_with(f"{a.name} = {self.found.gains[a.name]}", units.get(a.name, "")) for a in made.axes]
-        shares = in_words([f"{self.words[state]} {share}" for state, share in _shares(made).items()])
+        parts = in_words([f"{self.words[state]} {share}" for state, share in shares(made).items()])
         return (
-            f"Map of {in_words(ranges)}: {shares}. The study's gains, {in_words(at)}: "
+            f"Map of {in_words(ranges)}: {parts}. The study's gains, {in_words(at)}: "
             f"{self.words[self.found.state]}."
         )
 
     # Words
 
     def caption(self, made: Map) -> Markup:
-        shares = _shares(made)
+        share = shares(made)
         count = "\N{NO-BREAK SPACE}×\N{NO-BREAK SPACE}".join(str(axis.count) for axis in made.axes)
         where = f" on the graph {self.found.graph}" if self.found.graph else ""
         others = ", all other gains at the study's values" if len(self.found.gains) > len(made.axes) else ""
         dark = " (the dark cells)" if (made.states == OPEN).any() else ""
         rest = (
-            f"{where}{others}: {count} cells, each decided as a whole, with its edges. {shares[HOLDS]} of "
-            f"the map is feasible, in {shares[FAILS]} {_OUTSIDE[self.theorem is None]}, and "
-            f"{shares[OPEN]}{dark} is undecided."
+            f"{where}{others}: {count} cells, each decided as a whole, with its edges. {share[HOLDS]} of "
+            f"the map is feasible, in {share[FAILS]} {_OUTSIDE[self.theorem is None]}, and "
+            f"{share[OPEN]}{dark} is undecided."
         )
         if self.theorem is not None:
             rest += (
@@ -307,12 +308,12 @@ def _rounded(value: Fraction, way: str) -> str:
 
 def _percent(share: Fraction, up: bool) -> str:
     """In tenths of a percent, rounded up or down."""
-    tenths = share * 1000
-    whole = -(-tenths // 1) if up else tenths // 1
-    return f"{float(Fraction(int(whole), 10)):g}\N{NO-BREAK SPACE}%"
+    tenths = -(-share * 1000 // 1) if up else share * 1000 // 1
+    text = f"{tenths // 10}.{tenths % 10}" if share * 100 % 1 else str(share * 100)
+    return f"{text}\N{NO-BREAK SPACE}%"
 
 
-def _shares(made: Map) -> dict[int, str]:
+def shares(made: Map) -> dict[int, str]:
     """The part of each class; what is undecided is rounded up, and what is decided down."""
     count = {state: int(np.count_nonzero(made.states == state)) for state in (HOLDS, FAILS, OPEN)}
     return {
@@ -321,9 +322,13 @@ def _shares(made: Map) -> dict[int, str]:
     }
 
 
-class _NoSums:
-    def value(self, *_: Any) -> Any:
-        raise NoRate("a sum over nodes")
+class _Terms:
+    """A sum has the unit of what it sums."""
+
+    def value(self, at: Environment, name: str, level: int, law: str | None) -> Any:
+        of = at.problem.names[star(name)].of
+        assert of is not None
+        return at.output(of, _NODES, level, law)
 
 
 def _measured(one: Requirement, units: Mapping[str, str]) -> tuple[str | None, dict[str, str]]:
@@ -335,7 +340,7 @@ def _measured(one: Requirement, units: Mapping[str, str]) -> tuple[str | None, d
         return domain.symbol(star(name), known or "1" if known is not None else None)
 
     try:
-        values = Environment(one.problem, domain, free, _NoSums()).outputs(one.problem.claim.listing, {})
+        values = Environment(one.problem, domain, free, _Terms()).outputs(one.problem.claim.listing, _NODES)
     except NoRate:
         return None, {}
     if domain.mismatch is not None:

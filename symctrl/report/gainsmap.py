@@ -110,7 +110,7 @@ class _Plot:
         paths = []
         for state, name in CLASSES.items():
             found = rectangles(self.scene.map.states == state)
-            lines = "".join(f"M{x} {y}h{w}v{h}h-{w}z" for x, y, w, h in found)
+            lines = "".join(f"M{x} {y}h{w}v{h}H{x}" for x, y, w, h in found)
             paths += [f'<path class="{name}" d="{lines}"></path>'] if lines else []
         return f'<g {place} class="cells">{"".join(paths)}</g>'
 

@@ -19,7 +19,7 @@ from tests.gains.samples import answered, conditions, crossing, decaying, format
 from tests.report import sample
 from tests.report.markup import faults
 
-RUN = re.compile(r"M(\d+) (\d+)h(\d+)v(\d+)h-(\d+)z")
+RUN = re.compile(r"M(\d+) (\d+)h(\d+)v(\d+)H(\d+)")
 WORDS = {"f": "feasible", "i": "not covered by the proof", "u": "undecided"}
 REPORTS = {}
 
@@ -41,7 +41,7 @@ def painted(svg, shape):
         assert RUN.sub("", path) == ""
         found[name] = np.zeros(shape, int)
         for x, y, w, h, back in (map(int, run) for run in RUN.findall(path)):
-            assert back == w
+            assert back == x
             found[name][y : y + h, x : x + w] += 1
     return found
 
@@ -172,6 +172,23 @@ def test_conditions_have_verdict_margin_and_place():
     assert "<msup><mi>a</mi><mn>2</mn></msup>" in block.facts[0].value
 
 
+def test_a_sum_over_neighbours_has_the_unit_of_its_terms():
+    def built():
+        study = Study("measured")
+        k, beta = study.gain("k", "2", unit="s^-2"), study.gain("beta", "3/10", unit="s^-2")
+        fleet = study.fleet(default="ring:6")
+
+        @study.condition("(2)")
+        def damped(i):
+            """Every craft is damped."""
+            return k - beta * fleet.degree(i) >= 0
+
+        return study
+
+    _, _, block = made(built)
+    assert block.bounds[0].margin == "≥ 7/5\N{NO-BREAK SPACE}s⁻²"
+
+
 def test_gains_of_a_study_that_fail_are_shown_as_such():
     study = crossing().at(values={"b": "5"})
     block = gainsblock.block(verify(study), study, "own.py")
@@ -226,6 +243,20 @@ def test_the_block_is_sound_in_a_page_and_the_same_again():
     assert text.count('class="gm" role="img"') == 2
     again = gainsblock.block(replace(report, seconds=9.0), decaying(), "own.py")
     assert again == block
+
+
+def test_percentages_are_rounded_to_the_safe_side():
+    axes = (Axis("a", Fraction(0), Fraction(1), 3000),)
+    cells = np.ones((1, 3000), np.int8)
+    assert gainsblock.shares(Map(axes, cells)) == {
+        1: "100\N{NO-BREAK SPACE}%",
+        -1: "0\N{NO-BREAK SPACE}%",
+        0: "0\N{NO-BREAK SPACE}%",
+    }
+    cells[0, 0], cells[0, 1:32] = 0, -1
+    assert list(gainsblock.shares(Map(axes, cells)).values()) == [
+        f"{share}\N{NO-BREAK SPACE}%" for share in ("98.9", "1.0", "0.1")
+    ]
 
 
 def test_a_path_with_spaces_is_quoted():
