@@ -4,7 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from symctrl.report import rendering, shelf
+from symctrl.report import build, gainsblock, rendering, shelf
+from symctrl.verify import verify
+from tests.gains.samples import crossing, decaying, formation
 from tests.report import sample
 from tests.report.browser import CHROMIUM, chromium
 
@@ -80,3 +82,36 @@ def test_text_has_contrast_where_it_stands(browser, path):
     )
     palette = {"rgb(11, 90, 134)", "rgb(116, 57, 138)", "rgb(119, 88, 0)", "rgb(168, 50, 15)"}
     assert set(colours) == palette
+
+
+# Words of a map that are cut off, or that meet others
+ASTRAY = """[...document.querySelectorAll('.gm')].flatMap(svg => {
+  if (!svg.getBoundingClientRect().width) return []
+  const texts = [...svg.querySelectorAll('text')], all = svg.viewBox.baseVal
+  const boxes = texts.map(t => t.getBBox())
+  const cut = b => b.x < 0 || b.y < 0 || b.x + b.width > all.width || b.y + b.height > all.height
+  const meet = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width &&
+                         a.y + 3 < b.y + b.height && b.y + 3 < a.y + a.height
+  return texts.filter((_, k) => cut(boxes[k]) || boxes.some((b, m) => m !== k && meet(b, boxes[k])))
+              .map(t => t.textContent)
+})"""
+
+
+@pytest.mark.parametrize("build_study", [decaying, crossing, formation])
+def test_a_map_of_gains_is_drawn_for_each_width(browser, tmp_path, build_study):
+    study = build_study()
+    report = verify(study)
+    page = build.page(report, study, "own.py", "Own", gainsblock.block(report, study, "own.py"))
+    (tmp_path / "own.html").write_text(rendering.page(page, shelf.card(shelf.entry(page, "own.html"))))
+    shown = "[...document.querySelectorAll('.gm')].map(s => Math.round(s.getBoundingClientRect().width))"
+    for width, dark in [(1200, False), (1200, True), (360, False)]:
+        browser.open(tmp_path / "own.html", width, dark)
+        wide, narrow = browser.value(shown)
+        assert (wide > 600 and not narrow) if width == 1200 else (narrow == 328 and not wide)
+        assert browser.value(ASTRAY) == []
+        assert browser.value(BEYOND)[0] <= width
+    fills = "[...document.querySelectorAll('.gm path.f')].map(p => getComputedStyle(p).fill)"
+    assert set(browser.value(fills)) == {"rgb(207, 224, 234)"}
+    browser.open(tmp_path / "own.html", PAPER)
+    browser.printed()
+    assert browser.value(ASTRAY) == []
