@@ -16,7 +16,11 @@ from scipy.optimize import linprog
 
 from symctrl.sos.ring import Monomial, Poly
 
-MAX_CANDIDATES = 4000
+MAX_CANDIDATES = 3000
+
+
+class TooMany(ValueError):  # noqa: N818
+    """A basis would have more monomials than can be used."""
 
 
 def monomials(n: int, top: int, least: int = 0) -> list[Monomial]:
@@ -36,7 +40,10 @@ def _within(caps: Sequence[int], least: int, top: int) -> Iterator[Monomial]:
 
 
 def half_newton(support: Iterable[Monomial]) -> list[Monomial]:
-    """Candidates b with 2b in the Newton polytope, less those that diagonal consistency excludes."""
+    """Candidates b with 2b in the Newton polytope, less those that diagonal consistency excludes.
+
+    Raises TooMany.
+    """
     points = np.array(sorted(support), dtype=np.int64)
     degrees = points.sum(axis=1)
     caps = (points.max(axis=0) // 2).tolist()
@@ -44,7 +51,7 @@ def half_newton(support: Iterable[Monomial]) -> list[Monomial]:
     for b in _within(caps, -(-int(degrees.min()) // 2), int(degrees.max()) // 2):
         found.append(b)
         if len(found) > MAX_CANDIDATES:
-            return found
+            raise TooMany(f"more than {MAX_CANDIDATES} monomials")
     inside = _Inside(points)
     kept = [b for b in found if inside(b)]
     return _consistent(kept, {tuple(m) for m in points.tolist()})

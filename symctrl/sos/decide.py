@@ -9,7 +9,8 @@ from typing import Any, Literal
 from symctrl.certify import canonical, certificate
 from symctrl.kernel.check import check_text
 from symctrl.sos import line
-from symctrl.sos.basis import half_newton, parities, split
+from symctrl.sos.basis import TooMany, half_newton, parities, split
+from symctrl.sos.cliques import groups, search_groups
 from symctrl.sos.constrained import programmes
 from symctrl.sos.deadline import Deadline, Late, one_thread
 from symctrl.sos.multiplier import multipliers
@@ -22,6 +23,10 @@ from symctrl.sos.scaling import Scaled, scaled
 from symctrl.sos.search import Found, Missed, bounds, on_boundary, search
 
 Verdict = Literal["proved", "refuted", "undecided"]
+
+
+# From so many variables on, groups of variables are looked for first.
+_MANY = 4
 
 
 @dataclass
@@ -128,15 +133,37 @@ class Decision:
             )
 
     def _squares(self) -> None:
-        found = self._square_programme(self.problem.polynomial)
+        p = self.problem.polynomial
+        self._in_groups(p)
+        found = self._square_programme(p)
         if found is not None:
             self.proved(Proof(found.parts), "it is a sum of squares")
+
+    def _in_groups(self, p: Poly) -> None:
+        found = groups(p) if sum(map(bool, p.degrees())) >= _MANY else None
+        if found is None:
+            return
+        words = "a sum of squares in groups of variables"
+        self.tried.append(words)
+        parts = search_groups(p, found, self.deadline)
+        if parts is not None:
+            self.proved(Proof(tuple(parts)), f"it is {words}")
+        one = self.problem.ring.constant(1)
+        polys = [tuple(monomial(self.problem.ring, b) for b in basis) for basis in found.bases]
+        programme = Programme(p, tuple(Block((), one, basis) for basis in polys))
+        n = len(self.problem.names)
+        same = Scaled(self.problem, (Fraction(0),) * n, (Fraction(1),) * n)
+        self.later.append(Later(programme, same, words))
 
     def _square_programme(self, p: Poly, extra: tuple[Part, ...] = (), words: str = "") -> Found | None:
         """p as a sum of squares over half its Newton polytope, in floats first. extra: see `_multiplied`."""
         better = scaled(Problem(self.problem.names, p))
         target = better.problem.polynomial
-        basis = half_newton(terms(target))
+        try:
+            basis = half_newton(terms(target))
+        except TooMany as error:
+            self.tried.append(f"{words or 'a sum of squares'}, too large ({error})")
+            return None
         one = self.problem.ring.constant(1)
         blocks = tuple(
             Block((), one, tuple(monomial(self.problem.ring, b) for b in part))
@@ -273,7 +300,10 @@ def lower_bound(problem: Problem, deadline: Deadline) -> Fraction | None:
     inner = better.problem
     programme = None
     if problem.everywhere:
-        basis = half_newton([*terms(inner.polynomial), (0,) * len(problem.names)])
+        try:
+            basis = half_newton([*terms(inner.polynomial), (0,) * len(problem.names)])
+        except TooMany:
+            return None
         signs = parities([inner.polynomial])
         one = inner.ring.constant(1)
         parts = [tuple(monomial(inner.ring, b) for b in part) for part in split(basis, signs)]

@@ -22,6 +22,9 @@ _SEED = 20_041
 _MOST_BYTES = 1.5e9
 
 
+MAX_ROWS = 600  # of one Gram matrix
+
+
 class TooLarge(ValueError):  # noqa: N818
     """The programme takes more memory or time than there is; the message says how much."""
 
@@ -79,6 +82,9 @@ class Programme:
 
     def require_room(self, bytes_: float = 8.0, seconds: float = 1e9) -> None:
         """Raises TooLarge where the solver would need too much memory or time."""
+        widest = max(len(b.basis) for b in self.blocks)
+        if widest > MAX_ROWS:
+            raise TooLarge(f"a Gram matrix of {widest} rows")
         m = len(self.support)
         memory = 4 * m * m * bytes_
         flops = 20 * (m**3 / 3 + 2 * sum(m * m * len(b.basis) for b in self.blocks))

@@ -53,9 +53,9 @@ class Missed:
 
 def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()) -> Found | Missed:
     """An exact identity for the programme. Raises TooLarge and Late."""
+    programme.require_room(seconds=max(deadline.left, 1.0))
     if not programme.reaches:
         return Missed(None)
-    programme.require_room(seconds=max(deadline.left, 1.0))
     samples = sample(programme)
     last = None
     for point in iterates(samples):
