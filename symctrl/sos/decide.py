@@ -71,6 +71,7 @@ class Decision:
         self.tried: list[str] = []
         self.refuter = Refuter(problem, deadline)
         self.later: list[Later] = []
+        self.empty_tried = False
         self.point: tuple[Fraction, ...] | None = None
         self.proof: Proof | None = None
 
@@ -123,6 +124,8 @@ class Decision:
         found = line.points(problem, k) if k is not None else line.form_points(problem, form or (0, 0))
         for point in found:
             self.refuted(point if self.refuter.contradicts(point) else None)
+        if not problem.everywhere:
+            self._emptiness()
         if k is not None:
             proof = line.prove(problem, k, self.deadline)
         else:
@@ -244,19 +247,25 @@ class Decision:
             if found is not None:
                 self.proved(Proof(found.parts, margin=e), f"less {e}, it is a sum of squares")
 
-    def _constrained(self) -> None:
+    def _emptiness(self) -> None:
+        """Where no point of the set is known: -1 as a sum of squares times constraints."""
+        if self.refuter.admissible is not None or self.empty_tried:
+            return
+        self.empty_tried = True
         better = scaled(self.problem)
         inner = better.problem
-        one = inner.ring.constant(1)
-        if self.refuter.admissible is None:
-            for words, programme in programmes(inner, -one, 1):
-                self.tried.append(f"emptiness of the set with {words}")
-                found = self._search(programme, inner.zero)
-                if isinstance(found, Found):
-                    proof = better.back(Proof(found.parts, found.multiples, margin=Fraction(1)))
-                    self._accept(
-                        "proved", proof.as_json(empty=True), "no point satisfies the constraints", None
-                    )
+        for words, programme in programmes(inner, -inner.ring.constant(1), 1):
+            self.tried.append(f"emptiness of the set with {words}")
+            found = self._search(programme, inner.zero)
+            if isinstance(found, Found):
+                proof = better.back(Proof(found.parts, found.multiples, margin=Fraction(1)))
+                reason = "no point satisfies the constraints"
+                self._accept("proved", proof.as_json(empty=True), reason, None)
+
+    def _constrained(self) -> None:
+        self._emptiness()
+        better = scaled(self.problem)
+        inner = better.problem
         for words, programme in programmes(inner, inner.polynomial):
             self.tried.append(f"squares times {words}")
             found = self._search(programme, inner.zero)
