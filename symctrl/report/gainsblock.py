@@ -176,7 +176,7 @@ class _Written:
         count = "\N{NO-BREAK SPACE}×\N{NO-BREAK SPACE}".join(str(axis.count) for axis in made.axes)
         where = f" on the graph {self.found.graph}" if self.found.graph else ""
         others = ", all other gains at the study's values" if len(self.found.gains) > len(made.axes) else ""
-        dark = " (the dark cells)" if (made.states == OPEN).any() else ""
+        dark = " (the grey cells)" if (made.states == OPEN).any() else ""
         rest = (
             f"{where}{others}: {count} cells, each decided as a whole, with its edges. {share[HOLDS]} of "
             f"the map is feasible, in {share[FAILS]} {_OUTSIDE[self.theorem is None]}, and "
