@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import reduce
+from functools import partial, reduce
 from itertools import chain
 from operator import mul
 from typing import Any
@@ -17,6 +17,7 @@ from symctrl.decide.cases import by_cases
 from symctrl.decide.coefficients import coefficient_of
 from symctrl.decide.factors import Term, as_product, is_tied, opened, parts_of
 from symctrl.decide.forms import Form, form_of, without_forms
+from symctrl.decide.logarithms import by_logarithms
 from symctrl.decide.programme import by_programme, candidates, inside_logarithm
 from symctrl.decide.session import Session
 from symctrl.decide.squares import as_squares, completed, completed_with_multiplier
@@ -66,12 +67,14 @@ def entry_of(session: Session, value: Exact, strict: bool, known: Known) -> dict
             session.domain.field.normal(session.carrier(value)),
             lambda left: _short_entry(session, left, known),
         )
-    found = _by_multipliers(session, value, strict, known) if found is None else found
-    return (
-        by_cases(session, value, lambda left: entry_of(session, left, strict, known))
-        if found is None
-        else found
-    )
+    again = partial(entry_of, session, strict=strict, known=known)
+    if found is None:
+        p = session.domain.field.normal(session.carrier(value))
+        plain = partial(entry_of, session, strict=False, known=Known())
+        found = by_logarithms(session, p, plain, lambda: again(value))
+    if found is None:
+        found = _by_multipliers(session, value, strict, known)
+    return by_cases(session, value, again) if found is None else found
 
 
 def _short_entry(session: Session, value: Exact, known: Known) -> dict[str, Any] | None:
@@ -109,7 +112,8 @@ def _by_scaled_completion(session: Session, value: Exact, known: Known) -> dict[
 
 def _by_multipliers(session: Session, value: Exact, strict: bool, known: Known) -> dict[str, Any] | None:
     """The first multiplier with which there are terms."""
-    scaled = (_scaled_entry(session, value, strict, known, times) for times in _multipliers(session))
+    tried = [*_multipliers(session), *_turned(session, value)]
+    scaled = (_scaled_entry(session, value, strict, known, times) for times in tried)
     return next((entry for entry in scaled if entry is not None), None)
 
 
@@ -142,6 +146,15 @@ def _multipliers(session: Session) -> list[list[Poly]]:
     found += [[a] for k in range(len(field.generators)) for a in inside_logarithm(session, k)]
     distinct = [p for k, p in enumerate([leading, *found]) if p and p not in [leading, *found][:k]]
     return [power for p in distinct[:MAX_MULTIPLIERS] for power in (p, [*p, *p])]
+
+
+def _turned(session: Session, value: Exact) -> list[list[Poly]]:
+    """a + b for a - b, where it is known to be positive."""
+    p = session.domain.field.normal(session.carrier(value))
+    if len(p) != 2:
+        return []
+    q = session.domain.field.context.from_dict({m: abs(c) for m, c in p.to_dict().items()})
+    return [[q]] if q not in (p, -p) and session.domain.signs.of(q) == "positive" else []
 
 
 def _leading(session: Session) -> list[Poly]:

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations, combinations_with_replacement
+from math import isqrt
 from typing import Any
 
 import flint
@@ -257,7 +258,20 @@ def _squares(session: Session, p: Poly, wide: bool) -> list[Poly]:
     pairs = [a + s * b for a, b in combinations(ends, 2) for s in (1, -1)] if few else []
     products = [a * b for a, b in combinations_with_replacement(variables, 2)] if p.total_degree() > 3 else []
     minors = [a - b for a, b in combinations(products, 2)] if len(products) <= MAX_PRODUCTS else []
-    return [one, *variables, *pairs, *products, *minors]
+    return [one, *variables, *pairs, *(_edges(session, variables) if wide else []), *products, *minors]
+
+
+def _edges(session: Session, variables: Sequence[Poly]) -> list[Poly]:
+    """x - r and x + r for symbols x with c - x^2 - .. >= 0 assumed, and the root r of a rational c."""
+    found = []
+    for fact, _ in session.domain.signs.facts:
+        c = fact.to_dict().get((0,) * session.domain.field.size, 0)
+        root = Fraction(isqrt(int(c.p)), isqrt(int(c.q))) if c > 0 else Fraction(0)
+        if root and root * root == Fraction(int(c.p), int(c.q)):
+            r = session.domain.field.polynomial(root)
+            inside = [x for x in variables if fact.to_dict().get(tuple((x * x).monomial(0)), 0) < 0]
+            found += [x + side * r for x in inside for side in (1, -1) if root != 1]
+    return found
 
 
 def _bases(session: Session, p: Poly, wide: bool) -> list[Poly]:
@@ -266,6 +280,11 @@ def _bases(session: Session, p: Poly, wide: bool) -> list[Poly]:
     opaque = {k for k, g in enumerate(field.generators) if g.kind not in ("free", "sum")}
     near = [field.occurring(r) for r in field.relations if field.occurring(r) & field.occurring(p)]
     occurring = field.occurring(p).union(opaque, *near)
+    spoken = [
+        field.occurring(f) for f, _ in session.domain.signs.facts if field.occurring(f) & field.occurring(p)
+    ]
+    if wide and len(more := occurring.union(*spoken)) <= MAX_PAIRED:
+        occurring = more
     if wide and len(occurring) > MAX_PAIRED:
         occurring -= {k for k, sign in session.domain.signs.generator.items() if sign == "positive"}
     return [field.variable(k) for k in sorted(occurring)]

@@ -38,6 +38,7 @@ class Session:
     nodes: name, derivatives, law.
 
     `cases` are the arguments that are supposed not to be negative, by the generator of their absolute value.
+    `told` are the logarithms whose signs have been looked for.
     `zeros` are the numerators of the equations assumed at node i, `derived` what follows from them.
     """
 
@@ -48,6 +49,7 @@ class Session:
     zeros: list[tuple[Assumption, Poly]] = field(default_factory=list)
     derived: list[tuple[Derived, list[int]]] = field(default_factory=list)
     cases: dict[int, Poly] = field(default_factory=dict)
+    told: set[int] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.environment = Environment(self.problem, self.domain, self.free, self)

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from fractions import Fraction
 from itertools import combinations
 
-from symctrl.domains.field import Exact, Field, Poly
+from symctrl.domains.field import Exact, Field, Poly, merged
 
 BOUNDS = {"tanh": Fraction(1), "erf": Fraction(1), "atan": Fraction(11, 7), "asin": Fraction(11, 7)}
 SIDES = {"tanh": 1, "atan": 1, "asin": -1}  # 1: flatter than its argument, -1: steeper
@@ -34,15 +34,26 @@ def pairs_of_one_sign(field: Field, k: int) -> Iterator[tuple[Poly, Poly]]:
     g, own, one = field.generators[k], field.variable(k), field.polynomial(1)
     found: list[Poly] = []
     if g.kind == "function" and g.name in BOUNDS:
-        found = [own, _carrier(field, g.argument[0])]
+        found = [own, carrier(field, g.argument[0])]
         a = _polynomial(field, g.argument[0])
         if a is not None and g.name in SIDES:
             found.append((a - own) * field.polynomial(SIDES[g.name]))
     elif g.kind == "function" and g.name == "log":
-        found = [own, _carrier(field, g.argument[0], less=1)]
+        found = [own, carrier(field, g.argument[0], less=1)]
     elif g.kind == "exp":
-        found = [own - one, _carrier(field, g.argument)]
+        found = [own - one, carrier(field, g.argument)]
     return combinations([p for p in found if not p.is_zero()], 2)
+
+
+def differences(field: Field, p: Poly, k: int) -> Iterator[tuple[Poly, Poly]]:
+    """f a - f b and a - b, for generator k and a later one of the same increasing function in p."""
+    g = field.generators[k]
+    for j in sorted(field.occurring(p)) if g.kind == "function" and g.name in {*BOUNDS, "log"} else ():
+        h = field.generators[j]
+        if j > k and h.kind == "function" and h.name == g.name:
+            less = {key: -q for key, q in h.argument[0].items()}
+            apart = merged([*g.argument[0].items(), *less.items()])
+            yield field.variable(k) - field.variable(j), carrier(field, apart)
 
 
 def conjugate(field: Field, p: Poly, k: int) -> tuple[Poly, Poly, Poly, Poly] | None:
@@ -60,7 +71,7 @@ def _polynomial(field: Field, a: Exact) -> Poly | None:
     return a.get((), field.polynomial(0)) if set(a) <= {()} else None
 
 
-def _carrier(field: Field, a: Exact, less: int = 0) -> Poly:
+def carrier(field: Field, a: Exact, less: int = 0) -> Poly:
     """A polynomial with the sign of the argument less a number: over all denominators, of even exponent."""
     below = field.polynomial(1)
     for f, e in {f: max(dict(key).get(f, 0) for key in a) for key in a for f, _ in key}.items():

@@ -93,7 +93,8 @@ class Signs:
         for q, strict in beside.not_negative(field_, k):
             if (_ratio(p, q) or 0) > 0:
                 yield "positive" if strict else "nonnegative"
-        for u, v in beside.pairs_of_one_sign(field_, k):
+        for u, v in (*beside.pairs_of_one_sign(field_, k), *beside.differences(field_, p, k)):
+            yield from (of for of in self._by_other(p, u, v) if of in ("positive", "nonnegative"))
             kind = self._as_multiple(p, u * v)
             if kind is not None:
                 never = any(self.of(w) in ("positive", "nonzero") for w in (u, v))
@@ -105,6 +106,13 @@ class Signs:
             signs = [self.of(field_.normal(D))] if known else []
             signs += [self.of(field_.normal(-D))] if self._by_terms(r) is not None else []
             yield from (of for of in signs if of in ("positive", "nonnegative"))
+
+    def _by_other(self, p: Poly, u: Poly, v: Poly) -> Iterator[str | None]:
+        """The sign of p where it is a multiple of one of two polynomials of one sign, by the other."""
+        for w, other in ((u, v), (v, u)):
+            ratio = _ratio(p, w)
+            if ratio is not None:
+                yield self.of(self.field_.normal(other * ratio))
 
     def _as_multiple(self, p: Poly, q: Poly) -> str | None:
         """The sign of p where it is q times something of known sign, or q is p times something positive."""
@@ -150,9 +158,9 @@ class Signs:
     def _of_logarithm(self, k: int) -> str | None:
         """log a has the sign of a - 1."""
         g = self.field_.generators[k]
-        if g.kind != "function" or g.name != "log" or set(g.argument[0]) != {()}:
+        if g.kind != "function" or g.name != "log":
             return None
-        return self.of(g.argument[0][()] - 1)
+        return self.of(self.field_.normal(beside.carrier(self.field_, g.argument[0], less=1)))
 
 
 def _ratio(p: Poly, q: Poly) -> int | None:

@@ -8,10 +8,11 @@ Theorems, for real numbers wherever both sides are defined:
 - -1 < tanh a < 1 and -1 < erf a < 1; -11/7 < atan a < 11/7 and -11/7 < asin a < 11/7, for pi < 22/7.
 - exp a >= 1 + a and log a <= a - 1 (both sides have the same value and slope at 0 and 1, and exp is convex,
   log concave); a^2 >= sin(a)^2.
-- f a has the sign of a for f = tanh, atan, erf, asin, which are odd and increase; so have a - tanh a and
-  a - atan a, and asin a - a, since tanh' and atan' are below 1 and asin' is above it except at 0. exp a - 1
-  has the sign of a, and log a that of a - 1. Two numbers of one sign have a product that is not negative,
-  positive where one of them is not zero.
+- f a has the sign of a for f = tanh, atan, erf, asin, which are odd and increase; so have a - tanh a and a -
+  atan a, and asin a - a, since tanh' and atan' are below 1 and asin' is above it except at 0. exp a - 1 has
+  the sign of a, and log a that of a - 1. f a - f b has the sign of a - b for each of these functions and the
+  logarithm, which increase. Two numbers of one sign have a product that is not negative, positive where one
+  of them is not zero.
 - If p r = q, and r is not zero, p has the sign of q r.
 - Let n >= 0 and n^2 = B (n = |b| with B = b^2, or n = sqrt(B)), p = c n + r and D = c^2 B - r^2, that is p
   (c n - r) = D. Where c >= 0 and D >= 0 (D > 0), p >= 0 (p > 0): (c n)^2 >= r^2 with c n >= 0 gives c n >=
@@ -26,7 +27,7 @@ from itertools import combinations
 
 from symctrl.kernel.field import Field, Value
 from symctrl.kernel.generators import Generator
-from symctrl.kernel.polynomial import Poly, monomial, powers
+from symctrl.kernel.polynomial import Poly, monomial, powers, variables
 
 BOUNDS: dict[str, Fraction] = {
     "tanh": Fraction(1),
@@ -77,6 +78,16 @@ def pairs_of_one_sign(field: Field, k: int, g: Generator) -> Iterator[tuple[Poly
     elif g.kind == "exp":
         found = [ring.add(own, {0: -1}), _carrier(field, g.args[0])]
     return combinations([p for p in found if p], 2)
+
+
+def differences(field: Field, p: Poly, table: list[Generator], k: int) -> Iterator[tuple[Poly, Poly]]:
+    """f a - f b and a - b, for generator k and a later one of the same increasing function in p."""
+    g = table[k]
+    for j in sorted(variables(p)) if g.kind == "function" and g.name in {*BOUNDS, "log"} else ():
+        h = table[j]
+        if j > k and h.kind == "function" and h.name == g.name:
+            apart = _carrier(field, field.sub(g.args[0], h.args[0]))
+            yield field.ring.add(_own(k), field.ring.scale(_own(j), -1)), apart
 
 
 def conjugate(field: Field, p: Poly, k: int, g: Generator) -> tuple[Poly, Poly, Poly, Poly] | None:

@@ -13,6 +13,10 @@ first entry is shown where b >= 0, the second where b <= 0, each null where what
 In a case nothing is evaluated and no generator or factor is used for the first time, so that none is real or
 not zero because of the case alone.
 
+Theorem (`lemmas`): a polynomial that is shown not to be negative, or positive, on the domain has this sign in
+whatever is shown after it. `{"lemmas": [[kind, POLY, entry], ..], "then": entry}`. The sign of log a by that
+of a - 1, and those beside functions, roots and sizes, are known by such a polynomial.
+
 The terms add up to the quantity, or to it times positive POLYs (`times`).
 A term is `[c, [g, ..], [POLY, ..]]`. A g is the index of an assumption that a scalar is positive or
 nonnegative, and stands for the numerator of that scalar times its factors of odd exponent; or it is a
@@ -47,6 +51,9 @@ def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where:
     if "cases" in typed(entry, dict, where):
         _prove_cases(test, value, entry, strict, where)
         return
+    if "lemmas" in entry:
+        _prove_lemmas(test, value, entry, strict, where)
+        return
     replay, ring = test.replay, test.replay.field.ring
     total: Poly = {}
     positive = False
@@ -64,6 +71,19 @@ def prove_sign(test: SumIdentity, value: Value, entry: Any, strict: bool, where:
     sides: list[Value] = [{(): ring.add(form, ring.scale(total, -1))} for form in forms]
     if not any(_is_zero(test, side, where) for side in sides[:-1]):
         test.require_zero(sides[-1], where)
+
+
+def _prove_lemmas(test: SumIdentity, value: Value, entry: Any, strict: bool, where: str) -> None:
+    table = fields(entry, ("lemmas", "then"), where)
+    for n, lemma in enumerate(typed(table["lemmas"], list, where)):
+        said = f"{where}, lemma {n}"
+        kind, poly, inner = several(lemma, 3, f"{said}, [kind, POLY, entry]")
+        if kind not in ("positive", "nonnegative"):
+            raise Invalid(f"{said}: a lemma says that something is positive or nonnegative")
+        p = test.replay.poly(poly, said)
+        prove_sign(test, {(): p} if p else {}, inner, kind == "positive", said)
+        test.replay.learn_sign(kind, p)
+    prove_sign(test, value, table["then"], strict, where)
 
 
 def _prove_cases(test: SumIdentity, value: Value, entry: Any, strict: bool, where: str) -> None:

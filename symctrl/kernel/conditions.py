@@ -153,13 +153,23 @@ class Signs:
             g = self.table[k]
             for q, strict in beside.not_negative(self.field, k, g):
                 found &= self._as_multiple(p, q, SIGNS["positive" if strict else "nonnegative"])
-            for u, v in beside.pairs_of_one_sign(self.field, k, g):
+            pairs = beside.pairs_of_one_sign(self.field, k, g)
+            for u, v in (*pairs, *beside.differences(self.field, p, self.table, k)):
+                found &= self._by_other(p, u, v)
                 product_ = self.field.ring.mul(u, v)
-                if self._divide(p, product_) is not None:
+                if product_ and self._divide(p, product_) is not None:
                     never = 0 not in self.of(u) or 0 not in self.of(v)
                     found &= self._as_multiple(p, product_, SIGNS["positive" if never else "nonnegative"])
             found &= self._by_conjugate(p, k)
         self._asked.pop()
+        return found
+
+    def _by_other(self, p: Poly, u: Poly, v: Poly) -> SignSet:
+        """The sign of p where it is a multiple of one of two polynomials of one sign, by the other."""
+        found, (key, flip, _) = ANY, _unit(p)
+        for w, other in ((u, v), (v, u)):
+            if w and other and _unit(w)[0] == key:
+                found &= product(product(flip, _unit(w)[1]), self.of(other))
         return found
 
     def _divide(self, p: Poly, q: Poly) -> tuple[Poly, bool] | None:

@@ -171,6 +171,11 @@ class Replay(Domain[Value]):
             self.signs.learn_matrix(rows, assumption.kind == "positive_definite")
         self._add_relations()
 
+    def learn_sign(self, kind: str, p: Poly) -> None:
+        """A polynomial has been shown to have this kind of sign."""
+        self.signs.learn(kind, {(): p} if p else {})
+        self._add_relations()
+
     def claim(self) -> list[Value]:
         """The outputs of the claim's listing at node i, and its neighbour j where it speaks of one."""
         return self.walk.outputs(self.statement.claim.listing, {"i": "i", "j": "j"})

@@ -41,6 +41,7 @@ from symctrl.kernel.certificate import (
 )
 from symctrl.kernel.closure import Reach
 from symctrl.kernel.conditions import SIGNS
+from symctrl.kernel.field import Value
 from symctrl.kernel.polynomial import Poly, powers
 from symctrl.kernel.sums import OTHER, SumIdentity, opened
 from symctrl.kernel.values import Assumption, Claim, Condition, Listing, Statement, Step
@@ -57,7 +58,7 @@ def needed_conditions_each(statement: Statement, proof: dict[str, Any]) -> set[C
     test, values = opened(statement, evaluation, ("nonnegative",))
     if len(values) != 1:
         raise Invalid("a proof node by node is of one value")
-    _at_a_node(test, values[0])  # it is a linear combination of sums over nodes with constant coefficients
+    _combined(test, values[0])  # it is a linear combination of sums over nodes with constant coefficients
     return test.replay.close() | _proved(at_a_node(statement), statement.given, proof["term"])
 
 
@@ -226,17 +227,24 @@ def _proved(
 def _at_a_node(test: SumIdentity, value: Any) -> Poly:
     """The terms of the totals at node i, over a denominator that is positive and constant."""
     field = test.field
+    p, below = field.fraction(_combined(test, value))
+    for f, _ in below:
+        if test.replay.signs.of(field.factors[f]) != SIGNS["positive"] or _local(test, field.factors[f]):
+            raise Invalid("a denominator at a node is not a positive constant")
+    return field.normal(p)
+
+
+def _combined(test: SumIdentity, value: Value) -> Value:
+    """The combination of the terms of the totals at node i. What a term divides by may belong to the node: a
+    proof node by node is of the term as it is.
+    """
+    field = test.field
     numerator, key = field.fraction(value)
     for f, _ in key:
         if test.replay.signs.of(field.factors[f]) != SIGNS["positive"]:
             raise Invalid("a denominator of the sum is not known to be positive")
     coefficients = test._coefficients(field.normal(numerator), "the sum")
-    at_node = test._at_node(coefficients, "i")
-    p, below = field.fraction(at_node)
-    for f, _ in below:
-        if test.replay.signs.of(field.factors[f]) != SIGNS["positive"] or _local(test, field.factors[f]):
-            raise Invalid("a denominator at a node is not a positive constant")
-    return field.normal(p)
+    return test._at_node(coefficients, "i")
 
 
 def _local(test: SumIdentity, p: Poly) -> bool:

@@ -18,8 +18,8 @@ from symctrl.kernel.closure import rates_exist_where_defined
 from symctrl.kernel.rules.roles import Roles
 from symctrl.kernel.theorem import RULES, concluded, suppose
 from symctrl.kernel.values import Condition, Sentence
-from symctrl.rules.algebra import rate_over
 from symctrl.rules import tapes
+from symctrl.rules.algebra import rate_over
 from symctrl.rules.loop import Loop, tape_of
 from symctrl.rules.seeker import Abandoned, Outcome, Seeker
 from symctrl.rules.tapes import arguments

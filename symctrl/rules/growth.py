@@ -11,7 +11,7 @@ from symctrl.rules.constants import factors
 from symctrl.rules.quantities import formula
 from symctrl.rules.tapes import bare
 
-MAX_GROWING = 8  # states of a system that are not bounded
+MAX_GROWING = 4  # states of a system that are not bounded
 
 
 def growths(chain: Chain) -> list[dict[str, Any]]:

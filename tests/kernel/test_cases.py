@@ -126,3 +126,62 @@ def test_saturation_is_told_apart_by_nested_sizes():
     prove(shown, value=value, more=table, hints=[hint])
     with pytest.raises(Invalid):
         prove(shown, value=("-", value, "1/100"), more=table, hints=[hint])
+
+
+def of_logarithm(*lemmas, then=None, k=1):
+    """log(1 + x^2) >= 0, after x^2 >= 0."""
+    stated = statement(
+        {"kind": "nonnegative", "shape": [1, 1]},
+        {"claim": program(("LOG", ("+", ("SQ", "x"), "y")))},
+        ["x", "y"],
+    )
+    inside = [["1", 0, 2], ["1", 1, 1]]
+    table = [{"free": "x"}, {"free": "y"}, {"function": "log", "of": [[[[], inside]]]}]
+    proof = {
+        "kind": "combination",
+        "generators": table,
+        "factors": [],
+        "hints": [{"is": [[[], [["1", 2, 1]]]]}],
+    }
+    entry = {"lemmas": list(lemmas), "then": then or {"terms": [["1", [[["1", 2, 1]]], []]]}}
+    verify(stated, {**proof, "entries": [entry]})
+
+
+ABOVE = [["1", 0, 2], ["1", 1, 1], ["-1"]]
+
+
+@pytest.mark.parametrize(
+    "lemma",
+    [
+        ["nonnegative", ABOVE, {"terms": [["1", [], [X]]]}],
+        ["nonnegative", ABOVE, {"terms": []}],
+        ["nonnegative", [["1", 0, 2]], {"terms": [["1", [], [X]]]}],
+        ["nonzero", [["1", 0, 2]], {"terms": [["1", [], [X]]]}],
+        ["positive", [["1", 0, 2]], {"terms": [["1", [], [X]]]}],
+        ["nonnegative", [["-1", 0, 2]], {"terms": [["1", [], [X]]]}],
+        ["nonnegative", [], {"terms": []}],
+        ["nonnegative", ABOVE],
+    ],
+)
+def test_a_lemma_that_is_false_or_says_too_little(lemma):
+    """log(x^2 + y) has no sign."""
+    with pytest.raises(Invalid):
+        of_logarithm(lemma)
+
+
+def test_a_lemma_is_shown_before_it_is_used():
+    value = ("LOG", ("+", ("SQ", "x"), 1))
+    stated = statement({"kind": "nonnegative", "shape": [1, 1]}, {"claim": program(value)}, ["x"])
+    table = [{"free": "x"}, {"function": "log", "of": [[[[], [["1", 0, 2], ["1"]]]]]}]
+    proof = {
+        "kind": "combination",
+        "generators": table,
+        "factors": [],
+        "hints": [{"is": [[[], [["1", 1, 1]]]]}],
+    }
+    then = {"terms": [["1", [[["1", 1, 1]]], []]]}
+    lemma = ["nonnegative", [["1", 0, 2]], {"terms": [["1", [], [X]]]}]
+    verify(stated, {**proof, "entries": [{"lemmas": [lemma], "then": then}]})
+    circular = ["nonnegative", [["1", 1, 1]], {"lemmas": [], "then": {"terms": [["-1", [], [X]]]}}]
+    with pytest.raises(Invalid):
+        verify(stated, {**proof, "entries": [{"lemmas": [circular], "then": then}]})
