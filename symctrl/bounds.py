@@ -37,6 +37,11 @@ class Statement(ABC):
     def __repr__(self) -> str:
         return f"<{self.kind}: {self.text()}>"
 
+    def _repr_latex_(self) -> str:
+        from symctrl import notebook
+
+        return notebook.formula(self.latex())
+
 
 @dataclass(frozen=True, eq=False)
 class Hint:

@@ -74,7 +74,7 @@ class Row:
     twins: Twins | None = None
     shown: tuple[str, ...] = ()  # assumptions about the trajectory, of what it rests on, that it shows
     witness: Mapping[str, Any] | None = None
-    certificate: Mapping[str, Any] | None = None
+    certificate: Mapping[str, Any] | None = field(default=None, repr=False)
     numeric: Numeric | None = None
     residual: str | None = None
     settled: bool = True
@@ -85,8 +85,13 @@ class Row:
     def as_json(self) -> dict[str, Any]:
         return asdict(self)
 
+    def _repr_html_(self) -> str:
+        from symctrl import notebook
 
-@dataclass(frozen=True)
+        return notebook.row(self)
+
+
+@dataclass(frozen=True, repr=False)
 class Report:
     """All rows of one study, what the paper numbers and the study has not entered, and the inputs' digest."""
 
@@ -102,6 +107,11 @@ class Report:
     def settled(self) -> bool:
         return all(row.settled for row in self.rows)
 
+    def __repr__(self) -> str:
+        return (
+            f"<report on {self.study}: {len(self.rows)} rows, {'settled' if self.settled else 'not settled'}>"
+        )
+
     def as_json(self, tool: str) -> dict[str, Any]:
         return {
             "format": "symctrl-verify/1",
@@ -113,3 +123,8 @@ class Report:
             "missing": list(self.missing),
             "seconds": self.seconds,
         }
+
+    def _repr_html_(self) -> str:
+        from symctrl import notebook
+
+        return notebook.report(self)

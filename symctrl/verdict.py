@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
@@ -44,6 +44,11 @@ class Verdict:
     reason: str
     method: str = ""
     conditions: tuple[Condition, ...] = ()
-    certificate: Mapping[str, Any] | None = None
+    certificate: Mapping[str, Any] | None = field(default=None, repr=False)
     witness: Mapping[str, Any] | None = None
     residual: str | None = None
+
+    def _repr_html_(self) -> str:
+        from symctrl import notebook
+
+        return notebook.verdict(self)

@@ -22,7 +22,7 @@ from symctrl.gains import point, search
 from symctrl.gains.boundary import boundary
 from symctrl.gains.conditions import Condition, Conditions, conditions, is_gain, requirement, variant_of
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
-from symctrl.gains.maps import Axis, Map, refuse_too_large, swept
+from symctrl.gains.maps import Axis, Map, parsed, refuse_too_large, swept
 from symctrl.gains.requirement import Case, Cases, Requirement, tight
 from symctrl.gains.theorem import NOTHING, standing_theorem
 from symctrl.inputs import inputs_digest
@@ -42,7 +42,7 @@ FORMAT = "symctrl-gains/1"
 MOST_AXES = 2
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Gains:
     """One answer. reason: why it is undecided although no condition is. chosen: values of gains that have
     none. margin: r such that all gains within the factors 1 - r and 1 + r are feasible; None where the point
@@ -70,6 +70,9 @@ class Gains:
     def verdict(self) -> str:
         return point.WORDS[self.state]
 
+    def __repr__(self) -> str:
+        return f"<gains of {self.study}: {self.verdict}>"
+
     def as_json(self) -> dict[str, Any]:
         cells = None
         if self.map is not None:
@@ -95,6 +98,11 @@ class Gains:
             "seconds": self.seconds,
         }
 
+    def _repr_html_(self) -> str:
+        from symctrl import notebook
+
+        return notebook.gains(self)
+
 
 def _written(values: Mapping[str, Fraction]) -> dict[str, str]:
     return {name: str(value) for name, value in values.items()}
@@ -111,17 +119,20 @@ def _best(what: str, best: search.Best) -> dict[str, Any]:
 
 def gains(
     study: Study,
-    axes: Sequence[Axis] = (),
+    sweeps: Sequence[Axis | str] = (),
     maximize: str | None = None,
     store: Store | None = None,
     progress: Callable[[str], None] = lambda _: None,
     decided: Mapping[str, Row] = NOTHING,
 ) -> Gains:
-    """The study's gains. maximize: "margin" or "decay". decided: rows that are known already, by id.
+    """The study's gains. sweeps: of one or two gains, as "K=1/2:3:100". maximize: "margin" or "decay".
+
+    decided: rows that are known already, by id.
 
     Raises StudyError, InputError.
     """
     began = time.perf_counter()
+    axes = [parsed(sweep) if isinstance(sweep, str) else sweep for sweep in sweeps]
     _refuse_axes(study, axes)
     theorem = standing_theorem(study, store, progress, decided)
     inputs = inputs_digest(study, set(study.statement_ids()))

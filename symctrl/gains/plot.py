@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
@@ -69,7 +70,7 @@ def _cells(axes: Axes, made: Map) -> None:
     colours = ListedColormap([COLOURS[k] for k in (FAILS, OPEN, HOLDS)])
     extent = _extent(made)
     axes.imshow(
-        _thinned(made.states),
+        thinned(made.states, MOST_PIXELS),
         origin="lower",
         extent=extent,
         aspect="auto",
@@ -96,39 +97,61 @@ def _extent(made: Map) -> tuple[float, float, float, float]:
 
 def _study(axes: Axes, found: Gains) -> Any:
     """The study's own gains as a point; and what is free of it on a coarse grid."""
+    at = place(found)
+    if at is None:
+        return beside(None)
+    x, y = at
+    right = is_left(x)
+    axes.plot([x], [y], "o", color=INK, markersize=5, transform=axes.transAxes, clip_on=False)
+    where: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points", "va": "center"}
+    where |= {"xytext": (7, 0), "ha": "left"} if right else {"xytext": (-7, 0), "ha": "right"}
+    axes.annotate("the study", at, fontsize=9, color=INK, **where)
+    return beside(at, len(found.map.axes) > 1 if found.map is not None else True)
+
+
+def place(found: Gains) -> tuple[float, float] | None:
+    """Where the study's own gains are, as parts of the map; None where they are outside."""
     assert found.map is not None
-    free = np.ones((COARSE, COARSE), bool)
     at = []
     for axis in found.map.axes:
         value = found.gains.get(axis.name)
         if value is None or not axis.lo <= value <= axis.hi:
-            return free
+            return None
         at.append(float((value - axis.lo) / (axis.hi - axis.lo)))
-    x, y = at[0], at[1] if len(at) > 1 else 0.5
-    right = x < 1 - 3 * POINT
-    axes.plot([x], [y], "o", color=INK, markersize=5, transform=axes.transAxes, clip_on=False)
-    axes.annotate(
-        "the study",
-        (x, y),
-        xycoords="axes fraction",
-        xytext=(7 if right else -7, 0),
-        textcoords="offset points",
-        ha="left" if right else "right",
-        va="center",
-        fontsize=9,
-        color=INK,
-    )
+    return at[0], at[1] if len(at) > 1 else 0.5
+
+
+def is_left(x: float) -> bool:
+    """Is there room for a point's name on its right?"""
+    return x < 1 - 3 * POINT
+
+
+def beside(at: tuple[float, float] | None, high: bool = True) -> Any:
+    """What is free of a point and its name on a coarse grid; of a strip all of the height."""
+    free = np.ones((COARSE, COARSE), bool)
+    if at is None:
+        return free
+    x, y = at
     grid = (np.arange(COARSE) + 0.5) / COARSE
-    beside = (
-        (grid > x - POINT) & (grid < x + 3 * POINT) if right else (grid > x - 3 * POINT) & (grid < x + POINT)
-    )
-    near = np.abs(grid - y) < POINT if len(at) > 1 else np.ones(COARSE, bool)
-    free[np.ix_(near, beside)] = False
+    before, after = (POINT, 3 * POINT) if is_left(x) else (3 * POINT, POINT)
+    across = (grid > x - before) & (grid < x + after)
+    near = np.abs(grid - y) < POINT if high else np.ones(COARSE, bool)
+    free[np.ix_(near, across)] = False
     return free
 
 
 def _words(axes: Axes, made: Map, free: Any) -> None:
-    """The name of each state in the middle of the largest room that it has."""
+    for state, x, y in rooms(made, free):
+        colour = PAPER if state == OPEN else INK
+        where: dict[str, Any] = {"transform": axes.transAxes, "ha": "center", "va": "center"}
+        axes.text(x, y, WORDS[state], color=colour, fontsize=10, **where)
+
+
+def rooms(made: Map, free: Any) -> Iterator[tuple[int, float, float]]:
+    """The middle of the largest room of each state that has room for its word, as parts of the picture.
+
+    free: where on a coarse grid there is nothing else.
+    """
     from scipy.ndimage import distance_transform_edt
 
     coarse = _coarse(made.states)
@@ -140,17 +163,7 @@ def _words(axes: Axes, made: Map, free: Any) -> None:
         row, column = np.unravel_index(int(np.argmax(away)), away.shape)
         if away[row, column] > len(word) / 6 * TEXT[0] * COARSE:
             y = (row + 0.5) / COARSE if len(made.axes) > 1 else 0.5
-            colour = PAPER if state == OPEN else INK
-            axes.text(
-                (column + 0.5) / COARSE,
-                y,
-                word,
-                transform=axes.transAxes,
-                ha="center",
-                va="center",
-                color=colour,
-                fontsize=10,
-            )
+            yield state, (column + 0.5) / COARSE, y
 
 
 def _coarse(states: Any) -> Any:
@@ -162,10 +175,7 @@ def _coarse(states: Any) -> Any:
 def _edge(axes: Axes, found: Gains) -> None:
     """The edge as a formula above the picture; of a map of one gain the numbers where the state changes."""
     assert found.map is not None
-    where = f" on {found.graph}" if found.graph else ""
-    edges = [_formula(text) for text in (found.boundary or "").split("; ") if text]
-    title = f"{found.study}{where}" + (f"     edge: {',  '.join(edges)}" if edges else "")
-    axes.set_title(title, fontsize=10, loc="left", color=INK, pad=16 if len(found.map.axes) == 1 else 8)
+    axes.set_title(title(found), fontsize=10, loc="left", color=INK, pad=8 if len(found.map.axes) > 1 else 16)
     if len(found.map.axes) > 1:
         return
     axis, states = found.map.axes[0], found.map.states[0]
@@ -175,6 +185,12 @@ def _edge(axes: Axes, found: Gains) -> None:
         low, high = float(axis.edge(a + 1)), float(axis.edge(b))
         words = f"{low:.4g}" if b == a + 1 else f"{low:.4g}–{high:.4g}"
         axes.text((low + high) / 2, 1.04, words, ha="center", va="bottom", fontsize=9, color=INK)
+
+
+def title(found: Gains) -> str:
+    where = f" on {found.graph}" if found.graph else ""
+    edges = [_formula(text) for text in (found.boundary or "").split("; ") if text]
+    return f"{found.study}{where}" + (f"     edge: {',  '.join(edges)}" if edges else "")
 
 
 def _letter(name: str) -> str:
@@ -188,9 +204,9 @@ def _formula(text: str) -> str:
     return f"${made}$" if "[" not in text else text
 
 
-def _thinned(states: Any) -> Any:
-    """At most MOST_PIXELS on a side; a group of cells that are not alike is undecided."""
-    steps = [max(1, -(-n // MOST_PIXELS)) for n in states.shape]
+def thinned(states: Any, most: int) -> Any:
+    """At most so many on a side; a group of cells that are not alike is undecided."""
+    steps = [max(1, -(-n // most)) for n in states.shape]
     if steps == [1, 1]:
         return states
     padded = np.pad(states, [(0, -n % s) for n, s in zip(states.shape, steps, strict=True)], mode="edge")

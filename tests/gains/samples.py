@@ -6,7 +6,6 @@ import sympy
 
 from symctrl import Study, claim, exponentially, positive_definite
 from symctrl.gains.answer import gains
-from symctrl.gains.maps import parsed
 from symctrl.vectors import absolute, maximum, power, row, sqrt, stack
 
 PRINCIPAL = [(0,), (1,), (2,), (0, 1), (0, 2), (1, 2), (0, 1, 2)]
@@ -153,7 +152,7 @@ def decaying():
 
 
 def answered(study, *sweeps, **options):
-    return gains(study, [parsed(sweep) for sweep in sweeps], **options)
+    return gains(study, sweeps, **options)
 
 
 def corners(axes):
