@@ -3,11 +3,11 @@
     OPENBLAS_NUM_THREADS=1 python benchmarks/sos.py [--limit SECONDS] [--sizes 4 6 8 10] [--chains 6 10 20 40]
 
 Dense quartics p = z'(RR' + I)z in all monomials z of degree 2 with a random integer R, and chains of
-Rosenbrock's function made strictly positive. `proof` is everything from the polynomial to the acceptance of its
-certificate by the kernel; `check` is the kernel alone. Peers build and solve, and give floats: Clarabel called
-directly with its faster factorisation (faer); SumOfSquares.py and Drake where they are installed. None is asked
-again for larger problems once it takes longer than the limit, nor where its Gram matrix has more than 100 rows
-(they would take gigabytes). Ratios are peer over proof; each time is the best of two.
+Rosenbrock's function made strictly positive. `proof` is everything from the polynomial to the acceptance of
+its certificate by the kernel; `check` is the kernel alone. Peers build and solve, and give floats: Clarabel
+called directly with its faster factorisation (faer); SumOfSquares.py and Drake where they are installed. None
+is asked again for larger problems once it takes longer than the limit, nor where its Gram matrix has more than
+100 rows (it would take gigabytes). Ratios are peer over proof; each time is the best of two.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import resource
 import time
 from multiprocessing.connection import Connection
 from typing import Any
@@ -14,7 +15,7 @@ from symctrl.sos.problem import Problem
 FORMAT = "symctrl-sos/1"
 LIMIT = 30.0  # seconds for one problem, unless another limit is asked for
 _GRACE = 5.0  # seconds after the limit until a process is ended
-_MOST_DIGITS = 4000
+_MEMORY = 6 * 2**30  # bytes of address space of such a process
 
 
 def answer(problem: Problem, inputs: Any, limit: float = LIMIT) -> dict[str, Any]:
@@ -49,6 +50,7 @@ def answer_apart(problem: Problem, inputs: Any, limit: float = LIMIT) -> dict[st
 
 def _send(there: Connection, problem: Problem, inputs: Any, limit: float) -> None:
     try:
+        resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
         there.send(answer(problem, inputs, limit))
     except MemoryError:
         there.close()
