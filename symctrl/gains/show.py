@@ -36,7 +36,8 @@ def show(found: Gains, console: Console) -> None:
     if found.boundary:
         console.print(f"edge: {found.boundary}")
     if found.margin is not None:
-        console.print(f"margin: feasible for all gains within {float(found.margin) * 100:.4g} % of these")
+        percent = _short(100 * found.margin)
+        console.print(f"margin: feasible for all gains within {percent} % of these")
     if found.best is not None:
         console.print(_best(*found.best))
     if found.map is not None:
