@@ -1,4 +1,4 @@
-"""A sum over nodes whose terms divide by what belongs to the node: by a positive gain of each, and by no other."""
+"""Sums over nodes whose terms divide by what belongs to the node: by a positive gain of each, by no other."""
 
 from symctrl import Study, claim, tends
 from symctrl.verify import verify

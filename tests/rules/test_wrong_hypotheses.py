@@ -41,7 +41,7 @@ def bounded_because_solutions_exist():
 # an assumption may leave out a part of the boundary by what it divides by
 
 
-@wrong("x1 is nonzero", "line 2, exists: x1 is nonzero")
+@wrong("d is nonzero", "line 2, exists: d is nonzero")
 def signal_whose_inverse_is_assumed():
     """d = 1 - t up to t = 1, then 1: the solution turns infinitely often before t = 1 and ends there."""
     study, x, y = states("x", "y")
@@ -60,13 +60,13 @@ def falling_into_zero(along):
     return theorem(study, [bounded(x)], lines, [along_trajectory(along(x))])
 
 
-@wrong("x1 is nonzero", "line 2, exists: x1 is nonzero")
+@wrong("x is nonzero", "line 2, exists: x is nonzero")
 def trajectory_whose_inverse_is_assumed():
     """x = sqrt(1 - 2 t) has 1/x >= 0 as long as it exists, and ends at t = 1/2."""
     return falling_into_zero(lambda x: 1 / x >= 0)
 
 
-@wrong("x1 is nonzero", "line 2, exists: x1 is nonzero")
+@wrong("x is nonzero", "line 2, exists: x is nonzero")
 def trajectory_in_an_open_set_of_matrices():
     """x = sqrt(1 - 2 t) has diag(x, 1) positive definite as long as it exists, and ends at t = 1/2."""
     return falling_into_zero(lambda x: positive_definite(block([[x, 0], [0, 1]])))
@@ -88,7 +88,7 @@ def conclusion_that_jumps():
 # limit sets: signals have no limits, and an assumption may not hold at limits
 
 
-@wrong("x1 has no signal", "line 3, lasalle: x1 has no signal: it depends on d")
+@wrong("d has no signal", "line 3, lasalle: d has no signal: it depends on d")
 def limit_of_a_signal():
     """v = exp(-t), d = exp(t)."""
     study, v = states("v")
