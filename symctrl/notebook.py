@@ -89,13 +89,15 @@ class Certificate:
 
 
 def gains(found: Gains) -> str:
+    from symctrl.gains.show import percent, short
+
     at = _values(found.gains)
     head = ("condition", "verdict", "margin", "from")
     rows = [
         (
             _math(one.condition.latex) if one.condition.latex else escape(one.condition.statement),
             escape(f"{STATES[one.state]}{': ' * bool(one.reason)}{one.reason}"),
-            "" if one.margin is None else f"≥ {_number(one.margin)}",
+            "" if one.margin is None else f"≥ {short(one.margin)}",
             escape(one.condition.source),
         )
         for one in found.conditions
@@ -103,7 +105,7 @@ def gains(found: Gains) -> str:
     where = f" on {found.graph}" if found.graph else ""
     said = [("edge", escape(found.boundary))] if found.boundary else []
     if found.margin is not None:
-        said.append(("margin", f"all gains within {float(found.margin) * 100:.4g} % of these"))
+        said.append(("margin", f"all gains within {percent(found.margin)} % of these"))
     if found.chosen:
         said.append(
             ("chosen", escape(", ".join(f"{name} = {value}" for name, value in found.chosen.items())))
@@ -137,10 +139,6 @@ def _word(outcome: str) -> str:
 
 def _values(witness: Mapping[str, Any]) -> str:
     return escape(", ".join(f"{name} = {value}" for name, value in witness.items()))
-
-
-def _number(value: Any) -> str:
-    return str(value) if len(str(value)) <= 12 else f"{float(value):.6g}"
 
 
 # The map: its cells as a picture in the SVG, and words on it

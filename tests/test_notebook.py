@@ -11,7 +11,6 @@ import json
 import re
 import struct
 import zlib
-from fractions import Fraction
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -78,8 +77,8 @@ def as_text(made):
 
 def test_the_notebook_shows_what_its_cells_give():
     text = PAGE.read_text(encoding="utf-8")
-    without_times = re.compile(r"\d+\.\d+ ?s\b")
-    assert without_times.sub("s", as_text(run_again())) == without_times.sub("s", text)
+    without_times = re.compile(r"seconds=\d+(\.\d+)?")
+    assert without_times.sub("", as_text(run_again())) == without_times.sub("", text)
     kinds = {
         kind
         for cell in json.loads(text)["cells"]
@@ -172,11 +171,6 @@ def test_a_certificate_is_shown_as_the_kernel_sees_it(change, status):
     found = answered(crossing()).conditions[0].certificates[0]
     seen = Balanced(notebook.Certificate({**found, **change})._repr_html_())
     assert f"certificate: {status}" in seen.text
-
-
-def test_numbers_are_short():
-    assert notebook._number(Fraction(1, 3)) == "1/3"
-    assert notebook._number(Fraction(1, 3**30)) == "4.85694e-15"
 
 
 if __name__ == "__main__":

@@ -31,13 +31,12 @@ def show(found: Gains, console: Console) -> None:
     console.print(_table(found))
     if found.spectrum is not None:
         low, high = found.spectrum.low, found.spectrum.high
-        exactly = f"is {low}" if low == high else f"lies between {_short(low)} and {_short(high, up=True)}"
+        exactly = f"is {low}" if low == high else f"lies between {short(low)} and {short(high, up=True)}"
         console.print(f"the largest eigenvalue of the Laplacian {exactly}")
     if found.boundary:
         console.print(f"edge: {found.boundary}")
     if found.margin is not None:
-        percent = _short(100 * found.margin)
-        console.print(f"margin: feasible for all gains within {percent} % of these")
+        console.print(f"margin: feasible for all gains within {percent(found.margin)} % of these")
     if found.best is not None:
         console.print(_best(*found.best))
     if found.map is not None:
@@ -52,7 +51,13 @@ def _best(what: str, best: Best) -> str:
     if best.objective is None:
         return f"largest {what}: no feasible gains were found"
     at = ", ".join(f"{name} = {_decimal(value)}" for name, value in best.gains.items())
-    return f"largest {what} found: {_short(best.objective)} at {at} (certified there)"
+    value = f"{percent(best.objective)} %" if what == "margin" else short(best.objective)
+    return f"largest {what} found: {value} at {at} (certified there)"
+
+
+def percent(margin: Fraction) -> str:
+    """Exactly: a margin is a multiple of one part in 10,000."""
+    return _decimal(100 * margin)
 
 
 def _table(found: Gains) -> Table:
@@ -60,7 +65,7 @@ def _table(found: Gains) -> Table:
     for name in ("condition", "verdict", "margin", "from"):
         table.add_column(name, overflow="fold")
     for answer in found.conditions:
-        margin = "" if answer.margin is None else f">= {_short(answer.margin)}"
+        margin = "" if answer.margin is None else f">= {short(answer.margin)}"
         verdict = f"{MARKS[answer.state]} {_verdict(answer)}"
         table.add_row(answer.condition.statement, verdict, margin, answer.condition.source)
     return table
@@ -71,7 +76,7 @@ def _verdict(answer: Answer) -> str:
     return f"{word}: {answer.reason}" if answer.reason else word
 
 
-def _short(value: Fraction, up: bool = False) -> str:
+def short(value: Fraction, up: bool = False) -> str:
     """Exact where that is short; else a decimal rounded to the safe side."""
     if len(str(value)) <= LONG:
         return str(value)
