@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
+import numpy as np
+from rich.cells import cell_len
 from rich.console import Console
 from rich.table import Table
+from rich.text import Text
 
 from symctrl.gains.answer import Gains
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
@@ -15,36 +18,59 @@ from symctrl.gains.search import Best
 
 MARKS = {HOLDS: "✓", FAILS: "✗", OPEN: "?"}
 LONG = 12  # characters of an exact number beyond which a decimal, rounded to the safe side, is shown
-LETTERS = {"f": "feasible", "i": "infeasible", "x": "unstable", "u": "undecided"}
+WORDS = {HOLDS: "feasible", FAILS: "infeasible", OPEN: "undecided"}
+HEADS = ("condition", "verdict", "margin", "from")
 
 
 def show(found: Gains, console: Console) -> None:
+    """On a terminal in its width; else one line for each thing that is said."""
+    for line in _above(found):
+        _print(console, line)
+    if console.is_terminal:
+        console.print(_table(found))
+    else:
+        for line in _lines([HEADS, *map(_cells, found.conditions)]):
+            _print(console, line)
+    for line in _below(found):
+        _print(console, line)
+
+
+def _print(console: Console, line: str) -> None:
+    console.print(Text(line), soft_wrap=not console.is_terminal)
+
+
+def _above(found: Gains) -> Iterator[str]:
     where = f" on {found.graph}" if found.graph else ""
-    named = ", ".join(f"{name} = {value}" for name, value in found.gains.items())
-    console.print(
-        f"{found.study}{where}: {MARKS[found.state]} {found.verdict}" + f" at {named}" * bool(named)
-    )
+    named = f" at {_named(found.gains)}" if found.gains else ""
+    yield f"{found.study}{where}: {MARKS[found.state]} {found.verdict}{named}"
     if found.reason:
-        console.print(found.reason)
+        yield found.reason
     if found.chosen:
-        console.print("chosen: " + ", ".join(f"{name} = {value}" for name, value in found.chosen.items()))
-    console.print(_table(found))
+        yield f"chosen: {_named(found.chosen)}"
+
+
+def _below(found: Gains) -> Iterator[str]:
     if found.spectrum is not None:
         low, high = found.spectrum.low, found.spectrum.high
         exactly = f"is {low}" if low == high else f"lies between {short(low)} and {short(high, up=True)}"
-        console.print(f"the largest eigenvalue of the Laplacian {exactly}")
+        yield f"the largest eigenvalue of the Laplacian {exactly}"
     if found.boundary:
-        console.print(f"edge: {found.boundary}")
+        yield f"edge: {found.boundary}"
     if found.margin is not None:
-        console.print(f"margin: feasible for all gains within {percent(found.margin)} % of these")
+        yield f"margin: feasible for all gains within {percent(found.margin)} % of these"
     if found.best is not None:
-        console.print(_best(*found.best))
+        yield _best(*found.best)
     if found.map is not None:
-        count = Counter("".join(found.map.cells))
-        cells = ", ".join(f"{count[letter]} {word}" for letter, word in LETTERS.items() if count[letter])
-        console.print(f"map: {cells} of {found.map.states.size} cells")
+        states = found.map.states
+        counts = [(int(np.count_nonzero(states == state)), word) for state, word in WORDS.items()]
+        cells = ", ".join(f"{count} {word}" for count, word in counts if count)
+        yield f"map: {cells} of {states.size} cells"
     if found.assumes:
-        console.print("the theorem also assumes: " + "; ".join(text for text, _ in found.assumes))
+        yield "the theorem also assumes: " + "; ".join(text for text, _ in found.assumes)
+
+
+def _named(values: Mapping[str, Fraction]) -> str:
+    return ", ".join(f"{name} = {value}" for name, value in values.items())
 
 
 def _best(what: str, best: Best) -> str:
@@ -62,13 +88,24 @@ def percent(margin: Fraction) -> str:
 
 def _table(found: Gains) -> Table:
     table = Table(box=None, pad_edge=False, header_style="", show_edge=False)
-    for name in ("condition", "verdict", "margin", "from"):
+    for name in HEADS:
         table.add_column(name, overflow="fold")
     for answer in found.conditions:
-        margin = "" if answer.margin is None else f">= {short(answer.margin)}"
-        verdict = f"{MARKS[answer.state]} {_verdict(answer)}"
-        table.add_row(answer.condition.statement, verdict, margin, answer.condition.source)
+        table.add_row(*map(Text, _cells(answer)))
     return table
+
+
+def _cells(answer: Answer) -> tuple[str, ...]:
+    margin = "" if answer.margin is None else f">= {short(answer.margin)}"
+    verdict = f"{MARKS[answer.state]} {_verdict(answer)}"
+    return answer.condition.statement, verdict, margin, answer.condition.source
+
+
+def _lines(rows: Sequence[Sequence[str]]) -> Iterator[str]:
+    widths = [max(map(cell_len, column)) for column in zip(*rows, strict=True)]
+    for row in rows:
+        padded = (cell + " " * (w - cell_len(cell)) for cell, w in zip(row, widths, strict=True))
+        yield "  ".join(padded).rstrip()
 
 
 def _verdict(answer: Answer) -> str:

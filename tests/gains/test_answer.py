@@ -2,6 +2,7 @@
 
 import io
 import json
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -93,6 +94,16 @@ def test_the_terminal_shows_verdict_edge_margin_and_map():
     assert "margin: feasible for all gains within 29.28 % of these\n" in text
     assert "largest margin found: " in text
     assert "of 8 cells\n" in text
+
+
+def test_a_sentence_is_no_markup():
+    study = conditions("marked", {"a": "2"}, lambda a: a > 1)
+    sentence = replace(study.conditions["asked"], sentence="The [bold]gain[/bold] is [/] large.")
+    study.conditions["asked"] = sentence
+    assert "The [bold]gain[/bold] is [/] large.  ✓ holds" in shown(answered(study))
+    console = Console(file=io.StringIO(), width=60, force_terminal=True, highlight=False)
+    show(answered(study), console)
+    assert "[/] large." in console.file.getvalue()
 
 
 def test_the_terminal_says_what_was_chosen_and_why_it_is_open():
