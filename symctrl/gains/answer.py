@@ -138,7 +138,7 @@ def gains(
     inputs = inputs_digest(study, set(study.statement_ids()))
     with within(study.instance):
         found = conditions(study, theorem, {*study.all_values(), *(axis.name for axis in axes)})
-        asked = _Asked(study, found, tuple(axes), study.all_values())
+        asked = Asked(study, found, tuple(axes), study.all_values())
         _refuse_unread(study, found, axes)
         progress("eigenvalues of the graph")
         bracket = asked.bracket()
@@ -182,7 +182,7 @@ def _source(entry: Entry) -> str:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class Asked:
     """What is asked of which study, and the parts of the answer."""
 
     study: Study
