@@ -6,7 +6,7 @@ Dense quartics p = z'(RR' + I)z in all monomials z of degree 2 with a random int
 Rosenbrock's function made strictly positive. `proof` is everything from the polynomial to the acceptance of
 its certificate by the kernel; `check` is the kernel alone. Peers build and solve, and give floats: Clarabel
 called directly with its faster factorisation (faer); SumOfSquares.py and Drake where they are installed. None
-is asked again for larger problems once it takes longer than the limit, nor where its Gram matrix has more than
+is asked again once it takes longer than the limit, nor where its Gram matrix has more than
 100 rows (it would take gigabytes). Ratios are peer over proof; each time is the best of two.
 """
 

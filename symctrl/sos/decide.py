@@ -289,6 +289,8 @@ class Decision:
 
     def proved(self, proof: Proof, reason: str) -> None:
         """Ends with the proof, if the kernel accepts it."""
+        if not proof.multiples:
+            proof = replace(proof, multiples=tuple(0 * h for h in self.problem.zero))
         self.proof = proof
         self._accept("proved", proof.as_json(), reason, None)
 

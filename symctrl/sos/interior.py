@@ -56,6 +56,8 @@ def iterates(s: Samples, constant: bool = False) -> Iterator[Iterate]:
 
     a0 = down(s.row_scale if constant else sum(w * (q * q).sum(axis=1) for q, w in zip(qs, ws, strict=True)))
     b = down(b)
+    if not float(a0 @ a0) > 0:
+        return
     w = a0 / float(a0 @ a0)
     fit = float(b @ a0) / float(a0 @ a0)
     spread = max(abs(fit), float(np.abs(b - fit * a0).max()) / max(float(np.abs(a0).max()), 1e-300), 1e-3)

@@ -82,7 +82,7 @@ class Programme:
 
     def require_room(self, bytes_: float = 8.0, seconds: float = 1e9) -> None:
         """Raises TooLarge where the solver would need too much memory or time."""
-        widest = max(len(b.basis) for b in self.blocks)
+        widest = max((len(b.basis) for b in self.blocks), default=0)
         if widest > MAX_ROWS:
             raise TooLarge(f"a Gram matrix of {widest} rows")
         m = len(self.support)

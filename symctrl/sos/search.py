@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import frexp
 from typing import Any
@@ -56,6 +56,8 @@ def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()
     programme.require_room(seconds=max(deadline.left, 1.0))
     if not programme.reaches:
         return Missed(None)
+    if not programme.blocks:
+        return _by_multiples(programme, zero) or Missed(None)
     samples = sample(programme)
     last = None
     for point in iterates(samples):
@@ -73,7 +75,7 @@ def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()
         ):
             break
     if last is None:
-        return Missed(None)
+        return _by_multiples(programme, zero) or Missed(None)
     size = float(np.abs(samples.target).max()) or 1.0
     return Missed(max(last.lam, -abs(last.bound)), size, last.moments, samples.points)
 
@@ -86,6 +88,8 @@ def on_boundary(
     for _ in range(_FACES):
         deadline.check()
         samples = sample(current)
+        if samples.free is not None and not samples.free.size:
+            return Missed(None)
         best = solve(current, samples, bits, deadline)
         if best is None or best.lam < -_ZERO:
             return Missed(None if best is None else best.lam)
@@ -99,7 +103,7 @@ def on_boundary(
             found = search(smaller, deadline, zero)
             if isinstance(found, Found):
                 return found
-        if first is None:
+        if first is None or not first.blocks:
             return Missed(best.lam)
         current = first
     return Missed(0.0)
@@ -134,6 +138,20 @@ def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, .
     floats: list[float] = []
     if programme.multiples:
         floats = np.linalg.lstsq(samples.multiples, gap, rcond=None)[0].tolist()
+    return _exactly(programme, hs, floats, zero)
+
+
+def _by_multiples(programme: Programme, zero: tuple[Poly, ...]) -> Found | None:
+    """The target as a combination of the multiples alone."""
+    if not programme.multiples:
+        return None
+    return _exactly(replace(programme, blocks=()), [], [0.0] * len(programme.multiples), zero)
+
+
+def _exactly(
+    programme: Programme, hs: list[Any], floats: list[float], zero: tuple[Poly, ...]
+) -> Found | None:
+    """An identity near these Gram matrices and multiples."""
     done = Rounding(programme, hs, floats).run() or Rounding(programme, hs, floats, 24).run()
     if done is None:
         return None
