@@ -277,6 +277,10 @@ def sos(
     batch: Annotated[
         Path | None, typer.Option(metavar="PROBLEMS.json", help='A list of {"id", "poly", "vars", "on"}.')
     ] = None,
+    certify: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE.json", help="A Gram matrix or Lyapunov function in floats, made exact."),
+    ] = None,
     limit: Annotated[
         float | None, typer.Option(metavar="SECONDS", help="For each problem; 30 unless given.")
     ] = None,
@@ -290,15 +294,19 @@ def sos(
     from symctrl.sos import command
 
     _refuse_early(json)
-    if (poly is None) == (batch is None):
-        raise InputError("sos: give one polynomial, or a file of problems with --batch")
-    if poly is not None:
-        found = command.single(poly, names, on, limit)
+    if sum(given is not None for given in (poly, batch, certify)) != 1:
+        raise InputError(
+            "sos: give one polynomial, or a file of problems with --batch, or --certify FILE.json"
+        )
+    if batch is None:
+        found = (
+            command.single(poly, names, on, limit) if poly is not None else command.made_exact(certify, limit)
+        )
         if json != "-":
             print(command.line(found))
         _emit(json, found)
         raise typer.Exit(command.EXIT_CODES[found["verdict"]])
-    if batch is None or names is not None or on is not None:
+    if names is not None or on is not None:
         raise InputError("sos: the variables and sets of a batch stand in its file")
     answers = []
     with _watch("sos") as watch:

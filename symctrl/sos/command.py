@@ -25,6 +25,13 @@ def single(poly: str, names: str | None, on: str | None, limit: float | None) ->
     return answer_apart(problem, {"poly": poly, "vars": list(problem.names), "on": on or ""}, seconds)
 
 
+def made_exact(path: Path | None, limit: float | None) -> dict[str, Any]:
+    """The answer to --certify. Raises InputError."""
+    from symctrl.sos.certifying import certify
+
+    return certify(path or Path(), _limit(limit))
+
+
 def batch(path: Path, limit: float | None, watch: Callable[[str], None]) -> Iterator[dict[str, Any]]:
     """The answers to the problems of a file, in its order; all are read before the first is tried."""
     seconds = _limit(limit)

@@ -59,6 +59,10 @@ def search(programme: Programme, deadline: Deadline, zero: tuple[Poly, ...] = ()
     if not programme.blocks:
         return _by_multiples(programme, zero) or Missed(None)
     samples = sample(programme)
+    if samples.free is not None and _vanishes(samples):
+        found = _by_multiples(programme, zero)
+        if found is not None:
+            return found
     last = None
     for point in iterates(samples):
         deadline.check()
@@ -139,6 +143,12 @@ def _rounded(programme: Programme, samples: Any, found: Any, zero: tuple[Poly, .
     if programme.multiples:
         floats = np.linalg.lstsq(samples.multiples, gap, rcond=None)[0].tolist()
     return _exactly(programme, hs, floats, zero)
+
+
+def _vanishes(samples: Any) -> bool:
+    """Is the target zero modulo the multiples, as far as floats can tell?"""
+    rest = samples.free.T @ samples.target
+    return not rest.size or float(np.abs(rest).max()) < 1e-9 * float(np.abs(samples.target).max())
 
 
 def _by_multiples(programme: Programme, zero: tuple[Poly, ...]) -> Found | None:

@@ -128,3 +128,46 @@ def test_the_same_input_gives_the_same_bytes(run):
         return found
 
     assert answer() == answer()
+
+
+GRAM = {"vars": ["x", "y"], "basis": ["x", "y"], "gram": [[1.0000001, -0.5], [-0.5, 0.9999999]]}
+MOTION = {"vars": ["x", "y"], "lyapunov": "x^2 + y^2"}
+
+
+@pytest.mark.parametrize(
+    ("body", "code", "words"),
+    [
+        (GRAM | {"poly": "x^2 - x*y + y^2"}, 0, "the Gram matrix, rounded and corrected, is exact"),
+        (GRAM | {"poly": "x^2 - 3*x*y + y^2"}, 1, "rounded, gives no proof"),
+        (GRAM | {"poly": "x^2 + y^2", "gram": [[1, 3], [3, 1]]}, 0, "rounded, gives no proof"),
+        (MOTION | {"field": {"x": "-x + y", "y": "-x - y^3"}}, 0, "-V': proved"),
+        (MOTION | {"field": {"x": "x + y", "y": "-x - y^3"}}, 1, "-V': refuted"),
+    ],
+)
+def test_what_somebody_found_in_floats(run, tmp_path, body, code, words):
+    (tmp_path / "floats.json").write_text(json.dumps(body))
+    exit_code, out, err = run("sos", "--certify", "floats.json", "--json", "-")
+    found = json.loads(out)
+    assert (exit_code, err) == (code, "")
+    assert words in found["reason"]
+    assert set(found) == FIELDS
+    assert check_text(json.dumps(found["certificate"])).status == "valid"
+
+
+@pytest.mark.parametrize(
+    ("body", "words"),
+    [
+        ({}, "must have"),
+        (GRAM | {"poly": "x^2", "gram": [[1, 2], [3, 4]]}, "is not symmetric"),
+        (GRAM | {"poly": "x^2", "gram": [[1, float("nan")], [0, 4]]}, "not finite"),
+        (GRAM | {"poly": "x^2", "gram": [[1]]}, "must have 2 rows"),
+        (GRAM | {"poly": "x^2", "basis": ["x", "2*y"]}, "is not a monomial"),
+        (MOTION | {"field": {"x": "-x"}}, "the rate of each of x, y"),
+    ],
+)
+def test_bad_floats_are_one_clear_line(run, tmp_path, body, words):
+    (tmp_path / "floats.json").write_text(json.dumps(body))
+    code, out, err = run("sos", "--certify", "floats.json")
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1
