@@ -125,3 +125,19 @@ def test_a_basis_is_half_the_newton_polytope():
         [(1, 2)],
         [(2, 1)],
     ]
+
+
+@pytest.mark.parametrize("n", [4, 12, 40])
+def test_a_chain_is_proved_in_groups_of_variables(n):
+    steps = "+".join(f"10*(x{k + 1}-x{k}^2)^2 + (1-x{k})^2" for k in range(n - 1))
+    powers = "+".join(f"x{k}^4" for k in range(n))
+    found = decide(read(f"{steps} + ({powers})/100 + 1/10", None), 20)
+    assert found.verdict == "proved"
+    assert "groups of variables" in found.reason
+
+
+def test_a_strictly_positive_quartic_in_many_variables_is_quick():
+    n = 9
+    text = "+".join(f"x{i}^4 + x{i}^2*x{j}^2 + x{i}*x{j}" for i in range(n) for j in range(i)) + "+x0^4 + 20"
+    found = decide(read(text, None), 20)
+    assert found.verdict == "proved"
