@@ -165,9 +165,8 @@ def _reaches(problem: Problem, name: str, wanted: Collection[str]) -> bool:
 def _divides(problem: Problem, name: str) -> bool:
     """By something else than a number?"""
     code = problem.listings[name].code
-    return any(
-        step.op in ("DIV", "INV") and not (step.op == "DIV" and code[step.args[1]].op == "CONST") for step in code
-    )
+    by = [code[step.args[1]].op for step in code if step.op == "DIV"]
+    return any(op != "CONST" for op in by) or any(step.op == "INV" for step in code)
 
 
 def with_motion(problem: Problem, name: str, size: Sequence[str], listing: str) -> Problem:

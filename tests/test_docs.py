@@ -15,7 +15,14 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-PAGES = ["README.md", "docs/own_study.md", "docs/theorems.md", "docs/extending.md", "docs/sos.md", "docs/gains.md"]
+PAGES = [
+    "README.md",
+    "docs/own_study.md",
+    "docs/theorems.md",
+    "docs/extending.md",
+    "docs/sos.md",
+    "docs/gains.md",
+]
 BLOCK = re.compile(r"^```(\w+)(?: (\S+))?\n(.*?)^```$", re.M | re.S)
 
 

@@ -161,8 +161,8 @@ def of_switches():
     theorem_1,
     using=[closed_loop_corrected, omega_from_rate, rate_of_scalar_part, no_component_of_d_exceeds],
     why="With the corrected B the loop is as designed; K_o is at least beta times the graph's largest "
-    "eigenvalue, K_v exceeds the disturbance, and the initial states are small, so that no scalar part reaches "
-    "zero.",
+    "eigenvalue, K_v exceeds the disturbance, and the initial states are small, so that no scalar part "
+    "reaches zero.",
 )
 def synchronisation():
     """If beta lambda_max(L) <= K_o and K_v is at least (sqrt(3)/2) alpha u_bar + delta, all attitudes become
