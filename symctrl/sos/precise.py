@@ -17,12 +17,13 @@ from scipy.linalg import solve_triangular
 
 from symctrl.sos.deadline import Deadline
 from symctrl.sos.programme import Programme, Samples, TooLarge
-from symctrl.sos.ring import Poly
+from symctrl.sos.ring import Poly, monomial
 from symctrl.sos.univariate import precision
 
 MAX_EQUATIONS = 320
 MAX_ROWS = 130
 _STEPS = 90
+_MOST_ENTRIES = 40_000
 
 
 @dataclass(frozen=True)
@@ -113,8 +114,7 @@ class _Iteration:
         self.size = max((abs(float(t.mid())) for t in target), default=1.0) or 1.0
         self.down: Any = None
         if programme.multiples:
-            values = [[p(*point) for point in points] for _, _, p in programme.multiples]
-            self.down = _left_kernel(values, [float(s) for s in samples.row_scale])
+            self.down = _left_kernel(programme, points, [float(s) for s in samples.row_scale])
         b = _column([t / self.size for t in target])
         self.b = b if self.down is None else (self.down * b).mid()
         self.count = sum(q.ncols() for q in self.rows)
@@ -252,10 +252,21 @@ def _longest(root: Any, d: Any) -> float:
     return 1.0 if least > -1.0 else -1.0 / least
 
 
-def _left_kernel(values: list[list[Any]], scale: list[float]) -> Any:
-    """Rows that are orthogonal to each multiple's values at the points, which are scaled: an arb_mat."""
-    count, m = len(values), len(values[0])
-    reduced, rank = fmpq_mat(count, m, [x for row in values for x in row]).rref()
+def _left_kernel(programme: Programme, points: list[list[Any]], scale: list[float]) -> Any:
+    """Rows that are orthogonal to each multiple's values at the points, which are scaled: an arb_mat.
+
+    Functionals of the coefficients are found exactly, and the coefficients from the values by interpolation.
+    """
+    support = programme.support
+    place = {m: k for k, m in enumerate(support)}
+    count, m = len(programme.multiples), len(support)
+    if count * m > _MOST_ENTRIES:
+        raise TooLarge(f"{count} multiples of equations with {m} monomials")
+    matrix = fmpq_mat(count, m)
+    for r, (_, _, product) in enumerate(programme.multiples):
+        for exponents, c in product.to_dict().items():
+            matrix[r, place[tuple(map(int, exponents))]] = c
+    reduced, rank = matrix.rref()
     pivots = []
     column = 0
     for r in range(rank):
@@ -263,12 +274,19 @@ def _left_kernel(values: list[list[Any]], scale: list[float]) -> Any:
             column += 1
         pivots.append(column)
         column += 1
+    free = [k for k in range(m) if k not in set(pivots)]
     rows = []
-    for free in (k for k in range(m) if k not in pivots):
+    for k in free:
         row = [arb(0)] * m
-        row[free] = arb(1) / scale[free]
+        row[k] = arb(1)
         for r, p in enumerate(pivots):
-            row[p] = -arb(reduced[r, free]) / scale[p]
+            row[p] = -arb(reduced[r, k])
+        rows.append(row)
+    over = programme.target.context()
+    values = arb_mat(_at([monomial(over, e) for e in support], points))
+    down = (arb_mat(rows) * values.inv().mid()).mid() * _diagonal([1 / arb(s) for s in scale])
+    found = []
+    for row in down.tolist():
         norm = sum((x * x for x in row), arb(0)).sqrt()
-        rows.append([(x / norm).mid() for x in row])
-    return arb_mat(rows)
+        found.append([(x / norm).mid() for x in row])
+    return arb_mat(found)
