@@ -147,6 +147,37 @@ def test_a_theorem_that_uses_a_refuted_statement_gives_no_condition():
         answered(study)
 
 
+def test_a_theorem_that_stands_at_the_studys_values_alone_gives_no_condition():
+    """What it uses is true where a is not b, which the values 2 and 1 show: of a map it would be wrong."""
+    study = Study("values")
+    x = study.state("x")
+    a, b = study.gain("a", "2"), study.gain("b", "1")
+
+    @study.definition("g")
+    def g():
+        return x * (a - b) / (a - b)
+
+    study.motion(x, -a * g())
+
+    @study.claimed("lemma")
+    def same():
+        """g is x."""
+        return equal(g(), x)
+
+    @study.claimed("theorem", using=[same])
+    def at_values():
+        """x decays exponentially."""
+        return claim(given=[a > "1/2"], then=[exponentially(x)])
+
+    @study.argument(at_values)
+    def by_square(run):
+        run.decays(x**2, a=2 * a)
+        run.exponentially(x, by=x**2, least=1)
+
+    with pytest.raises(StudyError, match="no theorem that assumes one stands for all values"):
+        answered(study)
+
+
 def test_the_last_theorem_that_stands_is_taken():
     study = decaying()
     x, a = study.symbols["x"].expr, study.symbols["a"].expr
