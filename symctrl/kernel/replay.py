@@ -134,7 +134,7 @@ class Replay(Domain[Value]):
         if g.kind != "abs" or not g.base or k not in self._used or self._cases >= MAX_CASES:
             raise Invalid(f"{where}: generator {k} is no absolute value by which cases are told apart")
         self.signs.learn_minors()
-        kept = self._learned, self.signs.known
+        kept = self._learned, self.signs.known, self.field.relations
         size: Poly = {monomial([(k, 1)]): 1}
         b = self.field.ring.scale(g.base, side)
         self._learned = [*kept[0], relation(self.field.ring.add(size, self.field.ring.scale(b, -1)))]
@@ -144,9 +144,8 @@ class Replay(Domain[Value]):
             yield self.signs.suppose("nonnegative", b)
         finally:
             self._cases -= 1
-            self._learned = kept[0]
-            self.signs.known = kept[1]
-            self._add_relations()
+            # not found anew, which would be under the relations of the case
+            self._learned, self.signs.known, self.field.relations = kept
 
     def _is_plain(self, assumption: Assumption) -> bool:
         """Is it about polynomials, which are defined everywhere?"""

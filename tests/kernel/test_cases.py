@@ -101,6 +101,21 @@ def test_what_a_case_supposes_is_forgotten_after_it():
         verify(stated, {"kind": "combination", **table, "entries": entries})
 
 
+def test_a_switch_that_is_on_in_a_case_is_forgotten_after_it():
+    """1 - x - |x| is 1 where x <= 0, and 0 at x = 1/2: there the square of its sign is not 1."""
+    turning = [["-1", 1, 1], ["-1", 0, 1], ["1"]]
+    sign = ("SIGN", ("-", ("-", 1, "x"), ("FABS", "x")))
+    value = program(("+", ("FABS", "x"), "x"), ("-", ("SQ", sign), 1))
+    stated = statement({"kind": "nonnegative", "shape": [2, 1]}, {"claim": value}, ["x"])
+    table = {
+        "generators": [{"free": "x"}, {"abs": X}, {"abs": turning}, {"sign": turning, "abs": 2}],
+        "factors": [],
+        "hints": [{"is": [[[], [["1", k, 1]]]]} for k in (1, 3)],
+    }
+    with pytest.raises(Invalid, match="sides differ"):
+        verify(stated, {"kind": "combination", **table, "entries": [by(*BOTH), {"terms": []}]})
+
+
 def test_a_root_is_not_real_because_of_a_case():
     """sqrt x, used for the first time where x >= 0, would be used without a condition."""
     root = {"root": 2, "of": X}
