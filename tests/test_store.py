@@ -115,7 +115,7 @@ def test_a_written_file_has_the_rights_that_the_user_gives_new_files(tmp_path):
 
 
 def _put_often(folder, text):
-    for _ in range(40):
+    for _ in range(400):
         Store(folder).put(KEY, {"outcome": text * 5000})
 
 
