@@ -89,8 +89,8 @@ def conditions(study: Study, theorem: Entry | None, fixed: Collection[str] = ())
     each = (*assumed.conditions, *named)
     if not each:
         raise StudyError(
-            f"the study {study.name} has no condition on gains: no theorem that assumes one stands for all values, "
-            "and it names none with @study.condition"
+            f"the study {study.name} has no condition on gains: no theorem that assumes one stands for all "
+            "values, and it names none with @study.condition"
         )
     return Conditions(theorem.id if theorem else None, each, assumed)
 
