@@ -14,7 +14,7 @@ import pytest
 
 from derivations.liang2016_formation import study
 from symctrl.certify import tool
-from symctrl.report import build, rendering, shelf, writing
+from symctrl.report import build, gainsblock, rendering, shelf, writing
 from symctrl.report.names import numbers
 from symctrl.report.page import Page
 from symctrl.report.scripts import LINES, PROGRAM, script
@@ -27,7 +27,8 @@ COMMITTED = Path(__file__).parents[2] / "reports" / f"{NAME}.html"
 
 @pytest.fixture(scope="module")
 def page(report: Report) -> Page:
-    return build.page(report, study, NAME, writing.title(NAME, NAME))
+    gains = gainsblock.block(report, study, NAME, None, lambda _: None)
+    return build.page(report, study, NAME, writing.title(NAME, NAME), gains)
 
 
 @pytest.fixture(scope="module")
