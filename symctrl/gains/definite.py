@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from symctrl.decide.definiteness import decide_matrix
-from symctrl.domains.boxes import Array, Box, Boxes, quiet, rounded
+from symctrl.domains.boxes import Array, Box, Boxes, exact_array, quiet, rounded
 from symctrl.domains.domain import Unsupported
 
 HOLDS, OPEN, FAILS = 1, 0, -1
@@ -87,11 +87,9 @@ def _matrix_in(rows: Rows, strict: bool, domain: Boxes) -> Array:
     found = np.where(np.broadcast_to(holds, count), HOLDS, OPEN)
     left = np.flatnonzero(found == OPEN)
     if left.size:
-        low = _together([[_floats(box.low, -np.inf) for box in row] for row in rows])
-        high = _together([[_floats(box.high, np.inf) for box in row] for row in rows])
-        found[left] = np.where(
-            _excluded(np.array(low)[..., left], np.array(high)[..., left], strict), FAILS, OPEN
-        )
+        low: Array = np.array(_together([[box.low for box in row] for row in rows]))[..., left]
+        high: Array = np.array(_together([[box.high for box in row] for row in rows]))[..., left]
+        found[left] = np.where(_excluded(low, high, strict, domain), FAILS, OPEN)
     return found
 
 
@@ -118,12 +116,13 @@ def _pivots(rows: Rows, domain: Boxes) -> Array:
     """
     left = [row[r:] for r, row in enumerate(rows)]
     holds = np.array([True])
+    one: Any = Fraction(1) if domain.exact else 1.0  # for a pivot below one that is not positive
     while left:
         top = left.pop(0)
         holds = holds & (top[0].low > 0)
         if not left or not holds.any():
             break
-        pivot = Box(np.where(holds, top[0].low, 1), np.where(holds, top[0].high, 1))  # of no matter elsewhere
+        pivot = Box(np.where(holds, top[0].low, one), np.where(holds, top[0].high, one))
         inverse = domain.inv_(pivot)
         left = [_eliminated(top, k, row, inverse, domain) for k, row in enumerate(left, 1)]
     return holds
@@ -138,29 +137,40 @@ def _eliminated(top: list[Box], k: int, row: list[Box], inverse: Box, domain: Bo
     return made
 
 
-def _excluded(low: Array, high: Array, strict: bool) -> Array:
-    """Is x'Ax below zero (or zero, where the matrix shall be definite) in the whole box?
+def _excluded(low: Array, high: Array, strict: bool, domain: Boxes) -> Array:
+    """Is x'Ax below zero (or zero, where the matrix shall be definite) in the whole box, for a vector x that
+    is proposed in floating point?
 
     low, high: of shape (n, n, boxes).
     """
-    floats, n = Boxes(), len(low)
-    middle = np.moveaxis((low + high) / 2, 2, 0)
-    known = np.isfinite(middle).all(axis=(1, 2))
-    middle[~known] = np.eye(n)
-    try:
-        x = np.round(np.linalg.eigh(middle)[1][:, :, 0] * DIGITS)
-    except np.linalg.LinAlgError:
-        return np.zeros(len(middle), bool)
-    total = floats.constant(Fraction(0))
+    n, x = len(low), _directions(low, high)
+    total = domain.constant(Fraction(0))
     for r in range(n):
         for c in range(r, n):
             twice = x[:, r] * x[:, c] * (1 if r == c else 2)  # whole numbers below 2^26: exact
-            entry = floats.mul_(Box(twice, twice), Box(low[r, c], high[r, c]))
-            total = floats.add_(total, entry)
+            weight = exact_array([Fraction(int(w)) for w in twice]) if domain.exact else twice
+            entry = domain.mul_(Box(weight, weight), Box(low[r, c], high[r, c]))
+            total = domain.add_(total, entry)
     below = total.high <= 0 if strict else total.high < 0
-    return below & known & (np.abs(x).max(axis=1) > 0)
+    return below.astype(bool) & (np.abs(x).max(axis=1) > 0)
 
 
-def _floats(ends: Array, towards: float) -> Array:
-    """Fractions rounded to floating-point numbers on that side."""
-    return np.array([rounded(x, towards) for x in ends]) if ends.dtype == object else ends
+def _directions(low: Array, high: Array) -> Array:
+    """Eigenvectors of the smallest eigenvalues in the middle of the boxes, as whole numbers; zero where there
+    is none.
+    """
+    middle = np.moveaxis((_floats(low) + _floats(high)) / 2, 2, 0)
+    known = np.isfinite(middle).all(axis=(1, 2))
+    middle[~known] = 0
+    try:
+        x = np.round(np.linalg.eigh(middle)[1][:, :, 0] * DIGITS)
+    except np.linalg.LinAlgError:
+        return np.zeros(middle.shape[:2])
+    return np.where(known[:, None], x, 0.0)
+
+
+def _floats(ends: Array) -> Array:
+    """About the fractions, as floating-point numbers."""
+    if ends.dtype != object:
+        return ends
+    return np.array([rounded(x, -np.inf) for x in ends.ravel()]).reshape(ends.shape)

@@ -1,10 +1,14 @@
 """What the graph decides and what a designer may choose: for all of the one, for some of the other."""
 
+from dataclasses import replace
+from fractions import Fraction
+
 import networkx as nx
 import pytest
 
-from symctrl import Study, claim, tends
+from symctrl import Study, claim, positive_definite, tends
 from symctrl.gains.definite import FAILS, HOLDS, OPEN
+from symctrl.vectors import diagonal
 from tests.gains.samples import answered, formation
 
 
@@ -85,6 +89,40 @@ def test_between_the_bounds_of_an_eigenvalue_nothing_is_claimed():
     assert states(found)["stiff"] in (HOLDS, FAILS)
     low, high = found.spectrum.low, found.spectrum.high
     assert (2 / middle <= 2 / high) == (states(found)["stiff"] == HOLDS) or middle in (low, high)
+
+
+@pytest.mark.parametrize(
+    ("beta", "stiff", "theorem"),
+    [
+        ("1/3", HOLDS, HOLDS),  # 2 > 4 beta
+        ("1/2", OPEN, HOLDS),  # 2 = 4 beta: weak at the theorem's bound, which 4 is in any case
+        ("4/7", OPEN, OPEN),  # 3 beta < 2 < 4 beta
+        ("2/3", FAILS, OPEN),  # 2 = 3 beta
+        ("7/10", FAILS, FAILS),  # 2 < 3 beta
+    ],
+)
+def test_of_an_eigenvalue_between_3_and_4_nothing_is_claimed_in_between(beta, stiff, theorem, monkeypatch):
+    from symctrl.gains.answer import Asked
+    from symctrl.spectral.bracket import extreme_eigenvalue
+
+    def wide(_):
+        return replace(extreme_eigenvalue(nx.path_graph(4)), low=Fraction(3), high=Fraction(4))
+
+    monkeypatch.setattr(Asked, "bracket", wide)
+    assert states(answered(formation().at(values={"beta": beta})))["stiff"] == stiff
+    assert states(answered(coupled().at(values={"beta": beta})))["vanishes/1"] == theorem
+
+
+def test_the_margin_of_a_matrix_is_one_for_all_eigenvalues():
+    study = Study("matrix")
+    k, fleet = study.gain("k", "2"), study.fleet(default="ring:6")
+
+    @study.condition("1")
+    def definite():
+        """The smallest eigenvalue is k - 3/10 lambda, least at lambda = 4."""
+        return positive_definite(diagonal(k - "3/10" * fleet.eigenvalue, k))
+
+    assert answered(study).conditions[0].margin == Fraction(4, 5)
 
 
 @pytest.mark.parametrize(("spec", "least", "most"), [("star:5", 1, 4), ("path:5", 1, 2), ("ring:5", 2, 2)])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from symctrl import Study, claim, equal, exponentially, implies, positive_definite
+from symctrl import Study, claim, equal, exponentially, implies, initially, positive_definite
 from symctrl.gains.conditions import conditions
 from symctrl.gains.theorem import standing_theorem
 from symctrl.vectors import row, stack
@@ -188,6 +188,27 @@ def test_the_last_theorem_that_stands_is_taken():
         return claim(given=[a > 7], then=[exponentially(x)])
 
     assert listed(study).theorem == "decay"
+
+
+def test_gains_at_which_no_state_is_admissible_are_undecided():
+    study = decaying()
+    x, a, b = (study.symbols[name].expr for name in "xab")
+
+    @study.claimed("theorem 2")
+    def near():
+        """From small initial states x decays exponentially."""
+        return claim(given=[a > 1, initially(x**2 <= 4 - a)], then=[exponentially(x)])
+
+    @study.argument(near)
+    def by_square(run):
+        run.decays(x**2, a=2 * (a + b))
+        run.exponentially(x, by=x**2, least=1)
+
+    assert answered(study).verdict == "feasible"
+    found = answered(study.at(values={"a": "5"}))
+    assert {one.state for one in found.conditions} == {1}
+    assert (found.verdict, found.margin) == ("undecided", None)
+    assert found.reason.startswith("no state is known at which all that the theorem assumes holds")
 
 
 # What is no condition

@@ -5,6 +5,8 @@ from fractions import Fraction
 
 import pytest
 
+from symctrl import Study, positive_definite, positive_semidefinite
+from symctrl.vectors import diagonal
 from tests.gains.samples import (
     answered,
     corners,
@@ -174,3 +176,51 @@ def test_what_is_not_zero_is_undecided_only_at_its_zeros():
 
     cells = answered(conditions("apart", {"a": "1"}, apart), "a=1:3:10").map.cells[0]
     assert cells == "ffff" + "uu" + "ffff"
+
+
+@pytest.mark.parametrize(
+    ("bound", "sweep", "cells"),
+    [
+        (lambda m: m <= 0, "m=-1:1e-400:2", "fu"),
+        (lambda m: m >= 0, "m=-1e-400:1:2", "uf"),
+        (lambda m: m < 0, "m=-1:-1e-400:2", "ff"),
+    ],
+)
+def test_an_edge_that_no_floating_point_number_is_stays_inside_its_cell(bound, sweep, cells):
+    """The cell reaches beyond zero, or ends before it, by less than the smallest number of floating point."""
+    assert answered(of_parameter(bound), sweep).map.cells == [cells]
+
+
+@pytest.mark.parametrize(("form", "cells"), [(positive_definite, "iiuf"), (positive_semidefinite, "iuuf")])
+def test_a_matrix_is_decided_at_the_edge_where_it_is_singular(form, cells):
+    """diag(m, 1) at m = 0, the edge of the second and of the third cell; semidefinite is shown by pivots that
+    are positive, so that its third cell is open.
+    """
+    found = answered(of_parameter(lambda m: form(diagonal(m, 1))), "m=-1:1:4").map.cells[0]
+    assert found == cells
+
+
+def of_parameter(function):
+    """A study with one condition on a parameter, which may be negative."""
+    study = Study("parameter")
+    m = study.parameter("m", "1")
+
+    @study.condition("1")
+    def asked():
+        """It holds."""
+        return function(m)
+
+    return study
+
+
+def test_a_condition_that_stands_still_and_is_open_leaves_no_cell_feasible():
+    from tests.gains.samples import conditions
+
+    def moving(a, b):
+        return a > 1
+
+    def still(a, b):
+        return 1 / (b - 1) > 0
+
+    cells = answered(conditions("still", {"a": "2", "b": "1"}, moving, still), "a=0:2:4").map.cells
+    assert cells == ["iiuu"]

@@ -180,6 +180,24 @@ def test_at_a_point_such_a_function_is_enclosed():
     assert single(lambda a: exp(a) > "7.38905609893066", a="2").state == FAILS
 
 
+def test_what_divides_by_zero_is_not_decided_as_a_claim_either():
+    assert single(lambda a, b: exp(a) * (b - 1) / (b - 1) > 0, a="1", b="2").state == HOLDS
+    assert single(lambda a, b: exp(a) * (b - 1) / (b - 1) > 0, a="1", b="1").state == OPEN
+
+
+def test_what_fails_between_two_eigenvalues_does_not_fail():
+    """The eigenvalues of the complete graph of four are 0 and 4."""
+    study = Study("between")
+    k, fleet = study.gain("k", "1"), study.fleet(default="complete:4")
+
+    @study.condition("1")
+    def apart():
+        """It fails at 2."""
+        return exp(k) * (fleet.eigenvalue - 2) ** 2 > 0
+
+    assert answered(study).conditions[0].state == OPEN
+
+
 def test_other_conditions_are_decided_beside_it():
     def unknown(a):
         return exp(a) > 7

@@ -66,6 +66,17 @@ def test_a_margin_has_no_end_where_nothing_fails():
     assert answered(conditions("sure", {"a": "1"}, sure)).margin == 1 - STEP
 
 
+def test_a_margin_is_one_however_few_parts_are_looked_at(monkeypatch):
+    from symctrl.gains import search
+
+    whole = answered(matrix()).margin
+    monkeypatch.setattr(search, "MOST_PARTS", 0)
+    found = answered(matrix())
+    assert 0 < found.margin < whole
+    generator = random.Random(5)
+    assert all(matrix_holds(*p) for p in within(list(found.gains.values()), found.margin, generator))
+
+
 def test_gains_that_are_not_feasible_have_no_margin():
     assert answered(crossing().at(values={"b": "5"})).margin is None
 
