@@ -22,6 +22,7 @@ from symctrl.gains.conditions import Condition
 from symctrl.gains.definite import FAILS, HOLDS, OPEN, leaves, smallest_eigenvalue
 from symctrl.gains.requirement import (
     DEGREE,
+    Case,
     Cases,
     Interval,
     Requirement,
@@ -115,7 +116,7 @@ def _decided(study: Study, one: Requirement, gains: Mapping[str, Fraction], case
         if found != OPEN or any(_is_wide(cases, name) for name in one.names):
             return _At(one, found, asked)
         reason = reason or "the enclosure of its value contains zero"
-    free = any(_is_wide(cases, name) for name in one.names)
+    free = any(name in cases and _is_free(cases[name]) for name in one.names)
     found = _by_balls(one, gains, cases)
     verdict = asked() if found == OPEN else None
     if verdict is not None and verdict.outcome in STATES and not verdict.conditions:
@@ -148,6 +149,12 @@ def _why_open(one: _At, cases: Cases) -> str:
     if wide[0] == DEGREE or cases[wide[0]].ranges[-1][1] is not None:
         return f"it depends on where in its bounds {wide[0]} lies"
     return f"it does not hold with the {wide[0]} that was chosen, {cases[wide[0]].hull[1]}"
+
+
+def _is_free(case: Case) -> bool:
+    """Is what is true of some value in the hull not true of the case, which may have another?"""
+    low, high = case.hull
+    return low < high or case.ranges != ((low, high),)
 
 
 def _is_wide(cases: Cases, name: str) -> bool:
